@@ -1,0 +1,1 @@
+//! Benchmarks and evidence of Open Water.

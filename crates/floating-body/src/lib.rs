@@ -1,0 +1,1 @@
+//! Rigid bodies floating on a water surface: hulls, forces, integration.

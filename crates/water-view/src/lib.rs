@@ -1,0 +1,1 @@
+//! Projected-grid renderer for Open Water on plain wgpu.

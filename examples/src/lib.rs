@@ -1,0 +1,1 @@
+//! Runnable scenes of Open Water.

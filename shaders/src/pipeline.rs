@@ -1,0 +1,1 @@
+//! Bind group layouts, pipelines and readback on wgpu.

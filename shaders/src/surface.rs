@@ -1,0 +1,116 @@
+//! The composite surface: the bind group that the renderer and a game's own shaders read, and the WGSL that reads it.
+//!
+//! `surface_at` answers what the water is at a world point, exactly (cubic kernel, f32); `surface_vertex` and
+//! `surface_shading` answer for a rest point from filtered half-float mips, for looks.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::{Pass, param_layout};
+
+/// Most cascades a sea may have.
+pub const MAX_CASCADES: usize = 8;
+/// Most interactive grids that are drawn at once.
+pub const MAX_GRIDS: usize = 32;
+/// See [`SurfaceTable::hidden_slope`].
+pub const HIDDEN_SLOPE_BIAS: u32 = 6;
+/// Fixed-point rounds that invert the horizontal displacement.
+pub const CHOP_ROUNDS: u32 = 4;
+
+/// A cascade as `surface_at` sees it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct SurfaceCascade {
+    /// Local origin modulo the tile, metres.
+    pub offset: [f32; 2],
+    /// Tile size, metres.
+    pub tile: f32,
+    /// Texels per side.
+    pub size: f32,
+}
+
+/// A grid as `surface_at` sees it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct SurfaceGrid {
+    /// Local position of the window's corner, metres.
+    pub corner: [f32; 2],
+    /// Cell size, metres.
+    pub cell_size: f32,
+    /// First element in the pool.
+    pub base: u32,
+    /// Cells along x and z.
+    pub cells: [u32; 2],
+    /// Padding.
+    pub pad: [u32; 2],
+}
+
+/// The table at binding 0 of the composite bind group.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct SurfaceTable {
+    /// Number of cascades in use.
+    pub cascade_count: u32,
+    /// Number of grids in use.
+    pub grid_count: u32,
+    /// Seconds since the start, wrapped at one hour, for looks only.
+    pub time: f32,
+    /// Significant wave height of the sea, metres.
+    pub significant_height: f32,
+    /// Mean square slope hidden below a footprint of 2^(i - [`HIDDEN_SLOPE_BIAS`]) metres, entry i: that of all waves
+    /// shorter than twice the footprint, those finer than any texel included.
+    pub hidden_slope: [f32; 16],
+    /// Cascades, longest first.
+    pub cascades: [SurfaceCascade; MAX_CASCADES],
+    /// Grids.
+    pub grids: [SurfaceGrid; MAX_GRIDS],
+}
+
+impl Default for SurfaceTable {
+    fn default() -> Self {
+        Zeroable::zeroed()
+    }
+}
+
+/// Layouts shared with WGSL.
+pub const PARAMS: &[crate::ParamLayout] = &[
+    param_layout!(SurfaceCascade { offset, tile, size }),
+    param_layout!(SurfaceGrid { corner, cell_size, base, cells }),
+    param_layout!(SurfaceTable {
+        cascade_count, grid_count, time, significant_height, hidden_slope, cascades, grids
+    }),
+];
+
+/// Constants that WGSL shares, and the group index of the composite bind group.
+pub fn constants(group: u32) -> String {
+    format!(
+        "const MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst CHOP_ROUNDS: u32 = {CHOP_ROUNDS}u;\nconst HIDDEN_SLOPE_BIAS: f32 = {HIDDEN_SLOPE_BIAS}.0;\n\
+         @group({group}) @binding(0) var<uniform> surface_table: SurfaceTable;\n\
+         @group({group}) @binding(1) var surface_displacement: texture_2d_array<f32>;\n\
+         @group({group}) @binding(2) var surface_derivative: texture_2d_array<f32>;\n\
+         @group({group}) @binding(3) var<storage, read> surface_grids: array<vec2<f32>>;\n\
+         @group({group}) @binding(4) var looks_displacement: texture_2d_array<f32>;\n\
+         @group({group}) @binding(5) var looks_derivative: texture_2d_array<f32>;\n\
+         @group({group}) @binding(6) var looks_sampler: sampler;\n"
+    )
+}
+
+/// WGSL text of the composite surface, its bind group at index `group`: put it in front of your own shader.
+pub fn wgsl(group: u32) -> String {
+    format!("{}\n{}", constants(group), TEXT)
+}
+
+/// WGSL of the composite surface without its bindings.
+pub const TEXT: &str = concat!(
+    include_str!("../wgsl/shared/cubic.wgsl"),
+    include_str!("../wgsl/shared/surface.wgsl"),
+    include_str!("../wgsl/shared/looks.wgsl"),
+);
+
+/// The passes of this area.
+pub const PASSES: &[Pass] = &[Pass {
+    name: "surface_probe",
+    constants: || constants(0),
+    parts: &[TEXT, include_str!("../wgsl/surface_probe.wgsl")],
+    entry_points: &["surface_probe"],
+    params: PARAMS,
+}];

@@ -1,0 +1,65 @@
+struct SurfaceLook {
+    normal: vec3<f32>,
+    // Mean square slope of what the footprint hides.
+    roughness: f32,
+    foam: f32,
+}
+
+// Mip level whose texel is as wide as the footprint (metres).
+fn looks_level(index: u32, footprint: f32) -> f32 {
+    let c = surface_table.cascades[index];
+    return log2(max(footprint * c.size / c.tile, 1e-6));
+}
+
+// How much of a cascade still shows: 1 near, 0 when the footprint is wider than half its tile.
+fn looks_weight(index: u32, footprint: f32) -> f32 {
+    let c = surface_table.cascades[index];
+    return 1.0 - smoothstep(0.25, 0.5, footprint / c.tile);
+}
+
+// Where the vertex at a rest point stands (x, y, z), for looks.
+fn surface_vertex(rest: vec2<f32>, footprint: f32) -> vec3<f32> {
+    var d = vec3<f32>(0.0);
+    for (var c = 0u; c < surface_table.cascade_count; c++) {
+        let weight = looks_weight(c, footprint);
+        if weight <= 0.0 {
+            continue;
+        }
+        let cascade = surface_table.cascades[c];
+        let uv = (rest + cascade.offset) / cascade.tile + 0.5 / cascade.size;
+        d += weight * textureSampleLevel(looks_displacement, looks_sampler, uv, c, max(looks_level(c, footprint), 0.0)).xyz;
+    }
+    let point = rest + d.xz;
+    return vec3<f32>(point.x, d.y + grids_at(point).x, point.y);
+}
+
+// Mean square slope of the waves that a footprint (metres) hides.
+fn hidden_slope(footprint: f32) -> f32 {
+    let x = clamp(log2(max(footprint, 1e-6)) + HIDDEN_SLOPE_BIAS, 0.0, 15.0);
+    let i = u32(x);
+    let j = min(i + 1u, 15u);
+    let a = surface_table.hidden_slope[i / 4u][i % 4u];
+    let b = surface_table.hidden_slope[j / 4u][j % 4u];
+    return mix(a, b, x - f32(i));
+}
+
+// Normal, hidden roughness and foam at a rest point, for looks.
+fn surface_shading(rest: vec2<f32>, footprint: f32) -> SurfaceLook {
+    var derivative = vec4<f32>(0.0);
+    var displacement = vec4<f32>(0.0);
+    var foam = 0.0;
+    for (var c = 0u; c < surface_table.cascade_count; c++) {
+        let cascade = surface_table.cascades[c];
+        let uv = (rest + cascade.offset) / cascade.tile + 0.5 / cascade.size;
+        let level = max(looks_level(c, footprint), 0.0);
+        let d = textureSampleLevel(looks_derivative, looks_sampler, uv, c, level);
+        let p = textureSampleLevel(looks_displacement, looks_sampler, uv, c, level);
+        derivative += d;
+        displacement += p;
+        foam += p.w;
+    }
+    let point = rest + displacement.xz;
+    let grids = grids_at(point);
+    let slope = world_slope(derivative, 0.0) + grids.yz;
+    return SurfaceLook(normalize(vec3<f32>(-slope.x, 1.0, -slope.y)), hidden_slope(footprint), clamp(foam + grids.w, 0.0, 1.0));
+}

@@ -1,0 +1,136 @@
+struct SurfaceCascade {
+    offset: vec2<f32>,
+    tile: f32,
+    size: f32,
+}
+
+struct SurfaceGrid {
+    corner: vec2<f32>,
+    cell_size: f32,
+    base: u32,
+    cells: vec2<u32>,
+    pad: vec2<u32>,
+}
+
+struct SurfaceTable {
+    cascade_count: u32,
+    grid_count: u32,
+    time: f32,
+    significant_height: f32,
+    hidden_slope: array<vec4<f32>, 4>,
+    cascades: array<SurfaceCascade, MAX_CASCADES>,
+    grids: array<SurfaceGrid, MAX_GRIDS>,
+}
+
+struct SurfacePoint {
+    height: f32,
+    normal: vec3<f32>,
+    rest: vec2<f32>,
+}
+
+// Texel of the period that holds `p`, and the fraction within it.
+struct Texel {
+    base: vec2<i32>,
+    fraction: vec2<f32>,
+}
+
+fn cascade_texel(index: u32, rest: vec2<f32>) -> Texel {
+    let c = surface_table.cascades[index];
+    let x = (rest + c.offset) * (c.size / c.tile);
+    let base = floor(x);
+    return Texel(vec2<i32>(base), x - base);
+}
+
+fn cascade_displacement(index: u32, rest: vec2<f32>) -> vec4<f32> {
+    let at = cascade_texel(index, rest);
+    let mask = i32(surface_table.cascades[index].size) - 1;
+    let wx = cubic_weights(at.fraction.x);
+    let wz = cubic_weights(at.fraction.y);
+    var sum = vec4<f32>(0.0);
+    for (var j = 0; j < 4; j++) {
+        for (var i = 0; i < 4; i++) {
+            let texel = (at.base + vec2<i32>(i - 1, j - 1)) & vec2<i32>(mask);
+            sum += wx[i] * wz[j] * textureLoad(surface_displacement, texel, index, 0);
+        }
+    }
+    return sum;
+}
+
+fn cascade_derivative(index: u32, rest: vec2<f32>) -> vec4<f32> {
+    let at = cascade_texel(index, rest);
+    let mask = i32(surface_table.cascades[index].size) - 1;
+    let wx = cubic_weights(at.fraction.x);
+    let wz = cubic_weights(at.fraction.y);
+    var sum = vec4<f32>(0.0);
+    for (var j = 0; j < 4; j++) {
+        for (var i = 0; i < 4; i++) {
+            let texel = (at.base + vec2<i32>(i - 1, j - 1)) & vec2<i32>(mask);
+            sum += wx[i] * wz[j] * textureLoad(surface_derivative, texel, index, 0);
+        }
+    }
+    return sum;
+}
+
+// Displacement (Dx, h, Dz, dDx/dz) of the ambient sea at a rest point, metres.
+fn ambient_displacement(rest: vec2<f32>) -> vec4<f32> {
+    var sum = vec4<f32>(0.0);
+    for (var c = 0u; c < surface_table.cascade_count; c++) {
+        sum += cascade_displacement(c, rest);
+    }
+    return sum;
+}
+
+// Height, slope and foam of all grids at a world point: (height, dh/dx, dh/dz, foam). Zero outside the windows.
+fn grids_at(point: vec2<f32>) -> vec4<f32> {
+    var sum = vec4<f32>(0.0);
+    for (var g = 0u; g < surface_table.grid_count; g++) {
+        let grid = surface_table.grids[g];
+        let x = (point - grid.corner) / grid.cell_size - 0.5;
+        let base = floor(x);
+        // Two cells of margin: the fade has brought the height to zero there.
+        if any(base < vec2<f32>(1.0)) || any(base > vec2<f32>(grid.cells) - 3.0) {
+            continue;
+        }
+        let t = x - base;
+        let wx = cubic_weights(t.x);
+        let wz = cubic_weights(t.y);
+        let dx = cubic_slopes(t.x) / grid.cell_size;
+        let dz = cubic_slopes(t.y) / grid.cell_size;
+        let first = vec2<u32>(base) - 1u;
+        for (var j = 0u; j < 4u; j++) {
+            let row = grid.base + (first.y + j) * grid.cells.x + first.x;
+            for (var i = 0u; i < 4u; i++) {
+                let v = surface_grids[row + i];
+                sum += vec4<f32>(wx[i] * wz[j] * v.x, dx[i] * wz[j] * v.x, wx[i] * dz[j] * v.x, wx[i] * wz[j] * v.y);
+            }
+        }
+    }
+    return sum;
+}
+
+// Slope of the ambient sea in world coordinates from (dh/dx, dh/dz, dDx/dx, dDz/dz) and dDx/dz.
+fn world_slope(d: vec4<f32>, cross: f32) -> vec2<f32> {
+    let a = 1.0 + d.z;
+    let b = 1.0 + d.w;
+    let jacobian = max(a * b - cross * cross, 0.05);
+    return vec2<f32>(b * d.x - cross * d.y, a * d.y - cross * d.x) / jacobian;
+}
+
+// The water at a world point (x, z): the horizontal displacement is inverted, the grids added.
+fn surface_at(point: vec2<f32>) -> SurfacePoint {
+    var rest = point;
+    var d = vec4<f32>(0.0);
+    for (var i = 0u; i <= CHOP_ROUNDS; i++) {
+        d = ambient_displacement(rest);
+        if i < CHOP_ROUNDS {
+            rest = point - d.xz;
+        }
+    }
+    var derivative = vec4<f32>(0.0);
+    for (var c = 0u; c < surface_table.cascade_count; c++) {
+        derivative += cascade_derivative(c, rest);
+    }
+    let grids = grids_at(point);
+    let slope = world_slope(derivative, d.w) + grids.yz;
+    return SurfacePoint(d.y + grids.x, normalize(vec3<f32>(-slope.x, 1.0, -slope.y)), rest);
+}
