@@ -74,9 +74,20 @@ impl Default for SurfaceTable {
 /// Layouts shared with WGSL.
 pub const PARAMS: &[crate::ParamLayout] = &[
     param_layout!(SurfaceCascade { offset, tile, size }),
-    param_layout!(SurfaceGrid { corner, cell_size, base, cells }),
+    param_layout!(SurfaceGrid {
+        corner,
+        cell_size,
+        base,
+        cells
+    }),
     param_layout!(SurfaceTable {
-        cascade_count, grid_count, time, significant_height, hidden_slope, cascades, grids
+        cascade_count,
+        grid_count,
+        time,
+        significant_height,
+        hidden_slope,
+        cascades,
+        grids
     }),
 ];
 
@@ -97,6 +108,31 @@ pub fn constants(group: u32) -> String {
 /// WGSL text of the composite surface, its bind group at index `group`: put it in front of your own shader.
 pub fn wgsl(group: u32) -> String {
     format!("{}\n{}", constants(group), TEXT)
+}
+
+/// Layout of the composite bind group, for vertex, fragment and compute stages.
+#[cfg(feature = "gpu")]
+pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    use crate::pipeline::Slot;
+    let unfiltered = Slot::TextureArray { filterable: false };
+    let filtered = Slot::TextureArray { filterable: true };
+    let table = Slot::Uniform {
+        size: size_of::<SurfaceTable>(),
+    };
+    crate::pipeline::group_layout(
+        device,
+        "surface",
+        wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        &[
+            table,
+            unfiltered,
+            unfiltered,
+            Slot::Read,
+            filtered,
+            filtered,
+            Slot::Sampler,
+        ],
+    )
 }
 
 /// WGSL of the composite surface without its bindings.
