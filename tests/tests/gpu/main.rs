@@ -1,0 +1,8 @@
+//! What needs an adapter, and the validation of every shader (which needs none).
+//!
+//! One adapter for all tests, a fresh device for each; a module per pass. Without an adapter these tests fail with the
+//! command that sets one up.
+
+mod context;
+mod readback;
+mod shaders;
