@@ -1,0 +1,1 @@
+//! Inputs that cases and criterion benches share.
