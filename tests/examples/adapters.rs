@@ -14,14 +14,7 @@ fn main() -> ExitCode {
             wgpu::DeviceType::Cpu => "software",
             _ => "hardware",
         };
-        println!(
-            "{kind}\t{}\t{}\t{} {}",
-            info.backend, info.name, info.driver, info.driver_info
-        );
+        println!("{kind}\t{}\t{}\t{} {}", info.backend, info.name, info.driver, info.driver_info);
     }
-    if adapters.is_empty() {
-        ExitCode::FAILURE
-    } else {
-        ExitCode::SUCCESS
-    }
+    if adapters.is_empty() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }

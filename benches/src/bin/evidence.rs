@@ -56,10 +56,8 @@ fn run(cli: &Cli) -> io::Result<bool> {
     }
     fs::create_dir_all(&cli.out)?;
     let context = Context::new(cli.quick, cli.out.clone());
-    let chosen: Vec<&Case> = CASES
-        .iter()
-        .filter(|case| cli.only.is_empty() || cli.only.iter().any(|name| name == case.name))
-        .collect();
+    let chosen: Vec<&Case> =
+        CASES.iter().filter(|case| cli.only.is_empty() || cli.only.iter().any(|name| name == case.name)).collect();
     let bar = ProgressBar::new(chosen.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
         bar.set_style(style);
@@ -71,12 +69,7 @@ fn run(cli: &Cli) -> io::Result<bool> {
         let made = (case.run)(&context).unwrap_or_else(|error| vec![Row::failed(case.name, error)]);
         let bad = made.iter().filter(|row| !row.ok).count();
         bar.suspend(|| {
-            eprintln!(
-                "{:<16} {:>3} rows, {bad} bad, {:.1} s",
-                case.name,
-                made.len(),
-                start.elapsed().as_secs_f64()
-            );
+            eprintln!("{:<16} {:>3} rows, {bad} bad, {:.1} s", case.name, made.len(), start.elapsed().as_secs_f64());
         });
         rows.extend(made);
         bar.inc(1);
@@ -94,13 +87,7 @@ fn run(cli: &Cli) -> io::Result<bool> {
     }
     let ok = rows.iter().all(|row| row.ok);
     let adapter = context.gpu().ok().map(|gpu| gpu.adapter.clone());
-    let report = Report {
-        schema: SCHEMA,
-        quick: cli.quick,
-        machine: Machine::here(adapter),
-        ok,
-        rows,
-    };
+    let report = Report { schema: SCHEMA, quick: cli.quick, machine: Machine::here(adapter), ok, rows };
     let path = cli.out.join("evidence.json");
     fs::write(&path, serde_json::to_string_pretty(&report)? + "\n")?;
     let bad = report.rows.iter().filter(|row| !row.ok).count();

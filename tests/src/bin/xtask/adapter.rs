@@ -14,11 +14,7 @@ const PACKAGES: [&str; 2] = ["libvulkan1", "mesa-vulkan-drivers"];
 /// Makes sure that wgpu finds an adapter, installing lavapipe where it may, and says which one the tests use.
 ///
 /// With `software`, or where only a software adapter answers, the Vulkan loader is told to load that one alone.
-pub(crate) fn ensure(
-    sections: &mut Sections,
-    no_install: bool,
-    software: bool,
-) -> Result<(), Failure> {
+pub(crate) fn ensure(sections: &mut Sections, no_install: bool, software: bool) -> Result<(), Failure> {
     if !cfg!(target_os = "linux") {
         return list(sections).map(drop);
     }
@@ -59,16 +55,8 @@ fn list(sections: &Sections) -> Result<Vec<String>, Failure> {
     sections.cargo("build --workspace --example adapters")?;
     let (lines, found) = sections.cargo_output("run --quiet --example adapters")?;
     print!("{lines}");
-    let kinds: Vec<String> = lines
-        .lines()
-        .filter_map(|line| line.split('\t').next())
-        .map(str::to_owned)
-        .collect();
-    if found && !kinds.is_empty() {
-        Ok(kinds)
-    } else {
-        Err("wgpu finds no graphics adapter".to_owned())
-    }
+    let kinds: Vec<String> = lines.lines().filter_map(|line| line.split('\t').next()).map(str::to_owned).collect();
+    if found && !kinds.is_empty() { Ok(kinds) } else { Err("wgpu finds no graphics adapter".to_owned()) }
 }
 
 /// Installs lavapipe, or says what to type.
@@ -79,14 +67,7 @@ fn install(no_install: bool) -> Result<(), Failure> {
             "no Vulkan driver found; the GPU tests need one, a software one will do. Type:\n\n    {advice}\n"
         ));
     };
-    for words in [
-        vec!["update"],
-        [
-            vec!["install", "-y", "--no-install-recommends"],
-            PACKAGES.to_vec(),
-        ]
-        .concat(),
-    ] {
+    for words in [vec!["update"], [vec!["install", "-y", "--no-install-recommends"], PACKAGES.to_vec()].concat()] {
         let mut line = prefix.to_vec();
         line.push("apt-get");
         line.extend(words);
@@ -97,10 +78,7 @@ fn install(no_install: bool) -> Result<(), Failure> {
             .status()
             .map_err(|error| format!("cannot start {}: {error}", line[0]))?;
         if !status.success() {
-            return Err(format!(
-                "`{}` ended with {status}. Type:\n\n    {advice}\n",
-                line.join(" ")
-            ));
+            return Err(format!("`{}` ended with {status}. Type:\n\n    {advice}\n", line.join(" ")));
         }
     }
     Ok(())
@@ -124,10 +102,7 @@ fn debian_like() -> bool {
     os_release()
         .lines()
         .filter(|line| line.starts_with("ID=") || line.starts_with("ID_LIKE="))
-        .any(|line| {
-            line.split(['=', ' ', '"'])
-                .any(|word| word == "debian" || word == "ubuntu")
-        })
+        .any(|line| line.split(['=', ' ', '"']).any(|word| word == "debian" || word == "ubuntu"))
 }
 
 fn os_release() -> String {
@@ -137,11 +112,7 @@ fn os_release() -> String {
 /// The command that installs a software adapter on this kind of system.
 fn advice() -> String {
     let release = os_release();
-    let like = |name: &str| {
-        release
-            .lines()
-            .any(|line| line.starts_with("ID") && line.contains(name))
-    };
+    let like = |name: &str| release.lines().any(|line| line.starts_with("ID") && line.contains(name));
     if like("fedora") || like("rhel") {
         "sudo dnf install vulkan-loader mesa-vulkan-drivers".to_owned()
     } else if like("arch") {
@@ -149,10 +120,7 @@ fn advice() -> String {
     } else if like("suse") {
         "sudo zypper install libvulkan1 libvulkan_lvp".to_owned()
     } else {
-        format!(
-            "sudo apt-get update && sudo apt-get install {}",
-            PACKAGES.join(" ")
-        )
+        format!("sudo apt-get update && sudo apt-get install {}", PACKAGES.join(" "))
     }
 }
 
@@ -164,9 +132,8 @@ fn loader_present() -> bool {
             .output()
             .is_ok_and(|output| String::from_utf8_lossy(&output.stdout).contains("libvulkan.so.1"))
     });
-    let searched = env::var_os("LD_LIBRARY_PATH").is_some_and(|paths| {
-        env::split_paths(&paths).any(|dir| dir.join("libvulkan.so.1").exists())
-    });
+    let searched = env::var_os("LD_LIBRARY_PATH")
+        .is_some_and(|paths| env::split_paths(&paths).any(|dir| dir.join("libvulkan.so.1").exists()));
     listed || searched
 }
 
@@ -174,9 +141,7 @@ fn loader_present() -> bool {
 fn drivers() -> Vec<PathBuf> {
     for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
         if let Some(paths) = env::var_os(name) {
-            return env::split_paths(&paths)
-                .filter(|path| path.exists())
-                .collect();
+            return env::split_paths(&paths).filter(|path| path.exists()).collect();
         }
     }
     let mut found: Vec<PathBuf> = ["/usr/share", "/usr/local/share", "/etc", "/usr/local/etc"]
@@ -191,7 +156,5 @@ fn drivers() -> Vec<PathBuf> {
 
 /// The description of the software driver.
 fn lavapipe() -> Option<PathBuf> {
-    drivers()
-        .into_iter()
-        .find(|path| path.to_string_lossy().contains("lvp_icd"))
+    drivers().into_iter().find(|path| path.to_string_lossy().contains("lvp_icd"))
 }

@@ -9,19 +9,11 @@ use crate::{
 };
 
 /// The published crates that work without wgpu.
-const WITHOUT_WGPU: [&str; 5] = [
-    "open-water-shaders",
-    "floating-body",
-    "ocean-spectrum",
-    "wave-grid",
-    "open-water",
-];
+const WITHOUT_WGPU: [&str; 5] = ["open-water-shaders", "floating-body", "ocean-spectrum", "wave-grid", "open-water"];
 
 /// An adapter, then every test and doc test, with and without wgpu.
 pub(crate) fn test(sections: &mut Sections, args: &TestArgs) -> Result<(), Failure> {
-    sections.run("graphics adapter", |s| {
-        adapter::ensure(s, args.no_install, args.software)
-    })?;
+    sections.run("graphics adapter", |s| adapter::ensure(s, args.no_install, args.software))?;
     sections.run("tests", |s| s.cargo("test --workspace"))?;
     sections.run("crates apart", crates_apart)
 }
@@ -30,40 +22,24 @@ pub(crate) fn test(sections: &mut Sections, args: &TestArgs) -> Result<(), Failu
 pub(crate) fn ci(sections: &mut Sections, args: &TestArgs) -> Result<(), Failure> {
     sections.run("format", |s| s.cargo("fmt --all --check"))?;
     test(sections, args)?;
-    sections.run("lints", |s| {
-        s.cargo("clippy --workspace --all-targets -- -D warnings")
-    })?;
-    sections.run("documentation", |s| {
-        s.cargo_with_env(
-            "doc --workspace --no-deps",
-            &[("RUSTDOCFLAGS", "-D warnings")],
-        )
-    })?;
-    sections.run("release build", |s| {
-        s.cargo("build --release --workspace --examples --bins")
-    })?;
+    sections.run("lints", |s| s.cargo("clippy --workspace --all-targets -- -D warnings"))?;
+    sections
+        .run("documentation", |s| s.cargo_with_env("doc --workspace --no-deps", &[("RUSTDOCFLAGS", "-D warnings")]))?;
+    sections.run("release build", |s| s.cargo("build --release --workspace --examples --bins"))?;
     sections.run("scenes", scenes)?;
-    sections.run("evidence", |s| {
-        s.cargo("run --release --bin evidence -- --quick --out target/ci/evidence")
-    })
+    sections.run("evidence", |s| s.cargo("run --release --bin evidence -- --quick --out target/ci/evidence"))
 }
 
 /// The crates without their default features: tested together, compiled one by one, and no wgpu among what they need.
 fn crates_apart(sections: &mut Sections) -> Result<(), Failure> {
-    let packages: String = WITHOUT_WGPU
-        .iter()
-        .map(|name| format!(" -p {name}"))
-        .collect();
+    let packages: String = WITHOUT_WGPU.iter().map(|name| format!(" -p {name}")).collect();
     sections.cargo(&format!("test{packages} --no-default-features"))?;
     for name in WITHOUT_WGPU {
         sections.cargo(&format!("check --quiet -p {name} --no-default-features"))?;
-        let (tree, _) = sections.cargo_output(&format!(
-            "tree -e normal --prefix none -p {name} --no-default-features"
-        ))?;
+        let (tree, _) =
+            sections.cargo_output(&format!("tree -e normal --prefix none -p {name} --no-default-features"))?;
         if tree.lines().any(|line| line.starts_with("wgpu ")) {
-            return Err(format!(
-                "{name} needs wgpu even without its default features"
-            ));
+            return Err(format!("{name} needs wgpu even without its default features"));
         }
     }
     Ok(())

@@ -10,11 +10,7 @@ use clap::{Parser, Subcommand};
 use section::Sections;
 
 #[derive(Parser)]
-#[command(
-    name = "cargo xtask",
-    bin_name = "cargo xtask",
-    about = "Sets up and runs the checks of Open Water"
-)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", about = "Sets up and runs the checks of Open Water")]
 struct Cli {
     #[command(subcommand)]
     task: Task,

@@ -20,11 +20,7 @@ impl Sections {
     pub(crate) fn new() -> Self {
         let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
         let root = tests.parent().unwrap_or(tests).to_path_buf();
-        Self {
-            root,
-            env: Vec::new(),
-            done: Vec::new(),
-        }
+        Self { root, env: Vec::new(), done: Vec::new() }
     }
 
     /// Gives every later command an environment variable.
@@ -54,21 +50,12 @@ impl Sections {
 
     /// As [`Self::cargo`], with more environment variables for this command only.
     pub(crate) fn cargo_with_env(&self, words: &str, env: &[(&str, &str)]) -> Result<(), Failure> {
-        let shown: String = env
-            .iter()
-            .map(|(name, value)| format!("{name}='{value}' "))
-            .collect();
+        let shown: String = env.iter().map(|(name, value)| format!("{name}='{value}' ")).collect();
         println!("$ {shown}cargo {words}");
         let mut command = self.cargo_command(words);
         command.envs(env.iter().copied());
-        let status = command
-            .status()
-            .map_err(|error| format!("cannot start cargo: {error}"))?;
-        if status.success() {
-            Ok(())
-        } else {
-            Err(format!("`{shown}cargo {words}` ended with {status}"))
-        }
+        let status = command.status().map_err(|error| format!("cannot start cargo: {error}"))?;
+        if status.success() { Ok(()) } else { Err(format!("`{shown}cargo {words}` ended with {status}")) }
     }
 
     /// The standard output of a `cargo` command and whether it succeeded; its errors go to the terminal.
@@ -79,18 +66,13 @@ impl Sections {
             .stderr(Stdio::inherit())
             .output()
             .map_err(|error| format!("cannot start cargo: {error}"))?;
-        Ok((
-            String::from_utf8_lossy(&output.stdout).into_owned(),
-            output.status.success(),
-        ))
+        Ok((String::from_utf8_lossy(&output.stdout).into_owned(), output.status.success()))
     }
 
     fn cargo_command(&self, words: &str) -> Command {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let mut command = Command::new(cargo);
-        command
-            .args(words.split_whitespace())
-            .current_dir(&self.root);
+        command.args(words.split_whitespace()).current_dir(&self.root);
         command.envs(self.env.iter().map(|(name, value)| (name, value)));
         command
     }
@@ -99,17 +81,9 @@ impl Sections {
     pub(crate) fn summary(&self) {
         println!("\n=== summary ===");
         for (name, took, passed) in &self.done {
-            println!(
-                "{:>8.1} s  {}  {name}",
-                took.as_secs_f64(),
-                if *passed { "ok    " } else { "FAILED" }
-            );
+            println!("{:>8.1} s  {}  {name}", took.as_secs_f64(), if *passed { "ok    " } else { "FAILED" });
         }
-        let total: f64 = self
-            .done
-            .iter()
-            .map(|(_, took, _)| took.as_secs_f64())
-            .sum();
+        let total: f64 = self.done.iter().map(|(_, took, _)| took.as_secs_f64()).sum();
         println!("{total:>8.1} s  in all");
     }
 }
