@@ -1,1 +1,40 @@
 //! Interactive water waves on a shifting window with absorbing borders, on the CPU and on wgpu.
+//!
+//! A [`WaveGrid`] solves the wave equation on a window of cells that follows a target in whole cells. Bodies disturb it
+//! with [`Source`]s; its border absorbs what leaves; its drawn height fades to zero at the edge, so grids and
+//! ambient sea can be summed. It knows nothing of bodies or of the ambient sea, and its waves all travel at one speed.
+//!
+//! ```
+//! use glam::{DVec2, Vec2};
+//! use wave_grid::{GridDesc, GridSample, Source, WaveGrid};
+//!
+//! let mut grid = WaveGrid::new(GridDesc::default())?;
+//! grid.center_on(DVec2::new(1000.0, 0.0));
+//! grid.set_origin(DVec2::new(1000.0, 0.0));
+//! // A stone of 10 litres.
+//! grid.add(Source::Displacement { center: Vec2::ZERO, radius: 0.2, volume: 0.01 });
+//! for _ in 0..60 {
+//!     grid.tick();
+//! }
+//! let mut ring = [GridSample::default()];
+//! grid.sample(&[Vec2::new(6.0, 0.0)], &mut ring);
+//! assert!(ring[0].height > 1e-5 && grid.is_finite());
+//! # Ok::<(), wave_grid::GridError>(())
+//! ```
+
+mod border;
+mod cpu;
+mod desc;
+mod error;
+mod grid;
+mod measure;
+mod source;
+mod state;
+mod window;
+
+pub use cpu::tiles::{QUIET_FOAM, QUIET_HEIGHT};
+pub use desc::{GridDesc, MAX_SUBSTEPS, Scheme, Stepping, TILE};
+pub use error::GridError;
+pub use grid::{GridSample, WaveGrid};
+pub use source::{HEIGHT_LIMIT, Source};
+pub use window::Window;

@@ -1,0 +1,114 @@
+//! The end of a tick: how high each tile's waves are, and the foam they leave.
+//!
+//! Water breaks where its crest falls faster than a fraction of g: foam grows with the downward acceleration
+//! -(c/h)^2 lap z above [`ONSET`] g and decays with time constant [`DECAY`]. Only for looks.
+
+use crate::cpu::tiles::{Mode, Tiles};
+use crate::state::State;
+
+/// Downward acceleration where foam begins, in g.
+pub(crate) const ONSET: f32 = 0.2;
+/// Acceleration above the onset, in g, at which foam grows at the full rate.
+pub(crate) const RANGE: f32 = 0.3;
+/// Foam per second at the full rate.
+pub(crate) const RATE: f32 = 4.0;
+/// Time constant of the decay, seconds.
+pub(crate) const DECAY: f32 = 5.0;
+const GRAVITY: f32 = 9.81;
+
+/// Numbers of the foam's update.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FoamLaw {
+    /// Excess per metre of Laplacian (sum of neighbours minus 4 z): (c/h)^2 / (g RANGE).
+    pub(crate) scale: f32,
+    /// ONSET / RANGE.
+    pub(crate) onset: f32,
+    /// Growth in a tick at full rate.
+    pub(crate) growth: f32,
+    /// Factor left after a tick.
+    pub(crate) keep: f32,
+}
+
+impl FoamLaw {
+    pub(crate) fn new(wave_speed: f32, cell_size: f32, tick: f32) -> Self {
+        let speed = wave_speed / cell_size;
+        Self {
+            scale: speed * speed / (GRAVITY * RANGE),
+            onset: ONSET / RANGE,
+            growth: RATE * tick,
+            keep: 1.0 / (1.0 + tick / DECAY),
+        }
+    }
+}
+
+/// Notes how high the waves of each active tile are.
+pub(crate) fn measure(state: &State, tiles: &mut Tiles) {
+    let [count_x, count_z] = tiles.count;
+    for tz in 0..count_z {
+        for tx in 0..count_x {
+            let at = tz * count_x + tx;
+            if tiles.tiles[at].mode == Mode::Active {
+                tiles.tiles[at].height = tile_height(state, tiles.span(0, tx), tiles.span(1, tz));
+            }
+        }
+    }
+}
+
+/// Measures the active tiles and updates their foam from z as the last sub-step found it.
+pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, law: FoamLaw) {
+    measure(state, tiles);
+    let [count_x, count_z] = tiles.count;
+    for tz in 0..count_z {
+        for tx in 0..count_x {
+            let tile = tiles.tiles[tz * count_x + tx];
+            if tile.mode != Mode::Active {
+                continue;
+            }
+            // No crest of the neighbourhood is high enough to break: the Laplacian is at most eight times the height.
+            let around = (tz.saturating_sub(1)..(tz + 2).min(count_z))
+                .flat_map(|z| &tiles.row(z)[tx.saturating_sub(1)..(tx + 2).min(count_x)])
+                .fold(0.0f32, |most, t| most.max(t.height));
+            if tile.foam > 0.0 || 8.0 * around * law.scale > law.onset {
+                let foam = tile_foam(state, tiles.span(0, tx), tiles.span(1, tz), law);
+                tiles.tiles[tz * count_x + tx].foam = foam;
+            }
+        }
+    }
+}
+
+type Span = std::ops::Range<usize>;
+
+fn tile_height(state: &State, x: Span, z: Span) -> f32 {
+    let mut most = [0.0f32; 16];
+    for j in z {
+        let row = j * state.nx + x.start..j * state.nx + x.end;
+        for array in [&state.z, &state.old] {
+            for (m, v) in most.iter_mut().zip(&array[row.clone()]) {
+                let v = v.abs();
+                *m = if v > *m { v } else { *m };
+            }
+        }
+    }
+    most.into_iter().fold(0.0, f32::max)
+}
+
+fn tile_foam(state: &mut State, x: Span, z: Span, law: FoamLaw) -> f32 {
+    let State { nx, nz, old, foam, .. } = state;
+    let (nx, nz) = (*nx, *nz);
+    let (from, to) = (x.start.max(1), x.end.min(nx - 1));
+    let mut most = 0.0f32;
+    if from >= to {
+        return most;
+    }
+    for j in z.start.max(1)..z.end.min(nz - 1) {
+        let around = |row: usize| &old[row * nx + from - 1..row * nx + to + 1];
+        let (south, row, north) = (around(j - 1), around(j), around(j + 1));
+        for (i, f) in foam[j * nx + from..j * nx + to].iter_mut().enumerate() {
+            let lap = (row[i] + row[i + 2]) + (south[i + 1] + north[i + 1]) - 4.0 * row[i + 1];
+            let excess = (-lap * law.scale - law.onset).clamp(0.0, 1.0);
+            *f = (*f * law.keep + excess * law.growth).min(1.0);
+            most = most.max(*f);
+        }
+    }
+    most
+}

@@ -1,0 +1,125 @@
+//! The inner loops: one row of cells, in place over the older state.
+//!
+//! Written as plain slices of equal length so that they compile to vector code without bounds checks. No fused
+//! multiply-add, so that every instruction set gives the same bits.
+
+/// Values below this are set to zero: decaying waves must not reach denormals, which are many times slower.
+pub(crate) const TINY: f32 = 1e-20;
+
+/// Coefficients of the scheme, dt folded in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Coefficients {
+    /// a w0: a face's own jump.
+    pub(crate) straight: f32,
+    /// a w1: the two jumps beside it.
+    pub(crate) beside: f32,
+    /// s = sigma dt / 2.
+    pub(crate) damping: f32,
+}
+
+fn flush(x: f32) -> f32 {
+    if x.abs() < TINY { 0.0 } else { x }
+}
+
+/// Interior, where c is uniform: the face fluxes of a cell collected,
+/// z+ = z + [ (1-s)(z - z_old) + sum over 8 neighbours w (z_nb - z) ] / (1+s).
+///
+/// `old` has n cells; the three rows have n + 2, from one cell before to one after.
+#[inline(never)]
+pub(crate) fn interior_row(old: &mut [f32], below: &[f32], row: &[f32], above: &[f32], k: Coefficients) {
+    let n = old.len();
+    let scale = 1.0 / (1.0 + k.damping);
+    let keep = (1.0 - k.damping) * scale;
+    let edge = scale * (k.straight - 2.0 * k.beside);
+    if k.beside == 0.0 {
+        let (west, centre, east) = (&row[..n], &row[1..n + 1], &row[2..n + 2]);
+        let (south, north) = (&below[1..n + 1], &above[1..n + 1]);
+        for i in 0..n {
+            let z = centre[i];
+            let cross = ((west[i] - z) + (east[i] - z)) + ((south[i] - z) + (north[i] - z));
+            old[i] = flush(z + (keep * (z - old[i]) + edge * cross));
+        }
+        return;
+    }
+    let corner = scale * 2.0 * k.beside;
+    let (west, centre, east) = (&row[..n], &row[1..n + 1], &row[2..n + 2]);
+    let (south_west, south, south_east) = (&below[..n], &below[1..n + 1], &below[2..n + 2]);
+    let (north_west, north, north_east) = (&above[..n], &above[1..n + 1], &above[2..n + 2]);
+    for i in 0..n {
+        let z = centre[i];
+        let cross = ((west[i] - z) + (east[i] - z)) + ((south[i] - z) + (north[i] - z));
+        let diagonal = ((south_west[i] - z) + (south_east[i] - z)) + ((north_west[i] - z) + (north_east[i] - z));
+        old[i] = flush(z + (keep * (z - old[i]) + (edge * cross + corner * diagonal)));
+    }
+}
+
+/// What a row of the border layer reads. Rows have n + 2 cells, edge data along x n + 1.
+pub(crate) struct LayerRow<'a> {
+    pub(crate) below: &'a [f32],
+    pub(crate) row: &'a [f32],
+    pub(crate) above: &'a [f32],
+    /// phi on the x-edges of this row.
+    pub(crate) phi_x: &'a [f32],
+    /// phi on the z-edges below and above this row, n each.
+    pub(crate) phi_z: [&'a [f32]; 2],
+    /// Z at the nodes along x, n.
+    pub(crate) node: &'a [f32],
+    /// Z, R and A at the edges along x, n + 1.
+    pub(crate) edge: &'a [f32],
+    pub(crate) gain: &'a [f32],
+    pub(crate) keep: &'a [f32],
+    /// Z at this row.
+    pub(crate) node_z: f32,
+    /// (Z, R, A) at the z-edges below and above.
+    pub(crate) edge_z: [[f32; 3]; 2],
+}
+
+/// Border layer: phi is advanced on the four edges of each cell, its own two are stored (`phi_x`, `phi_z`, n each).
+///
+/// z+ = z + [ dm (z - z_old) - Zi Zj z + div(a grad z) + div(phibar) ] / dp with dp, dm = 1 +- ((Zi + Zj)/2 + s) + Zi Zj/4,
+/// which is R R [2(1 - ZiZj/4) z + ...] - A A z_old arranged for small changes.
+#[inline(never)]
+pub(crate) fn layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], r: &LayerRow, k: Coefficients) {
+    let n = old.len();
+    let (phi_x, phi_z) = (&mut phi_x[..n], &mut phi_z[..n]);
+    let (west, centre, east) = (&r.row[..n], &r.row[1..n + 1], &r.row[2..n + 2]);
+    let (south_west, south, south_east) = (&r.below[..n], &r.below[1..n + 1], &r.below[2..n + 2]);
+    let (north_west, north, north_east) = (&r.above[..n], &r.above[1..n + 1], &r.above[2..n + 2]);
+    let (px0, px1) = (&r.phi_x[..n], &r.phi_x[1..n + 1]);
+    let (pz0, pz1) = (&r.phi_z[0][..n], &r.phi_z[1][..n]);
+    let node = &r.node[..n];
+    let (edge0, edge1) = (&r.edge[..n], &r.edge[1..n + 1]);
+    let (gain0, gain1) = (&r.gain[..n], &r.gain[1..n + 1]);
+    let (keep0, keep1) = (&r.keep[..n], &r.keep[1..n + 1]);
+    let zj = r.node_z;
+    let [[e_s, r_s, a_s], [e_n, r_n, a_n]] = r.edge_z;
+    for i in 0..n {
+        let z = centre[i];
+        let (w, e, s, t) = (west[i], east[i], south[i], north[i]);
+        let (sw, se, nw, ne) = (south_west[i], south_east[i], north_west[i], north_east[i]);
+        let flux_w = k.straight * (z - w) + k.beside * ((t - nw) + (s - sw));
+        let flux_e = k.straight * (e - z) + k.beside * ((ne - t) + (se - s));
+        let flux_s = k.straight * (z - s) + k.beside * ((e - se) + (w - sw));
+        let flux_n = k.straight * (t - z) + k.beside * ((ne - e) + (nw - w));
+        let phi_w = keep0[i] * px0[i] + gain0[i] * (zj - edge0[i]) * flux_w;
+        let phi_e = keep1[i] * px1[i] + gain1[i] * (zj - edge1[i]) * flux_e;
+        let phi_s = a_s * pz0[i] + r_s * (node[i] - e_s) * flux_s;
+        let phi_n = a_n * pz1[i] + r_n * (node[i] - e_n) * flux_n;
+        let plain = (flux_e - flux_w) + (flux_n - flux_s);
+        let layer = ((phi_e + px1[i]) - (phi_w + px0[i])) + ((phi_n + pz1[i]) - (phi_s + pz0[i]));
+        let product = node[i] * zj;
+        let half = 0.5 * (node[i] + zj) + k.damping;
+        let base = 1.0 + 0.25 * product;
+        let change = (base - half) * (z - old[i]) - product * z + (plain + 0.5 * layer);
+        old[i] = flush(z + change / (base + half));
+        phi_x[i] = flush(phi_w);
+        phi_z[i] = flush(phi_s);
+    }
+}
+
+/// phi on the edges between the last cells and the zero ring: `before` and `ring` are the last two values along the
+/// normal with their neighbours on both sides.
+pub(crate) fn rim_phi(phi: f32, before: [f32; 3], edge: [f32; 3], across: f32, k: Coefficients) -> f32 {
+    let flux = -k.straight * before[1] - k.beside * (before[0] + before[2]);
+    flush(edge[2] * phi + edge[1] * (across - edge[0]) * flux)
+}

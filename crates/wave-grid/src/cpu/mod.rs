@@ -1,0 +1,9 @@
+//! The grid's passes on the CPU, the twins of the WGSL passes of the same names.
+
+pub(crate) mod draw;
+pub(crate) mod foam;
+pub(crate) mod kernels;
+pub(crate) mod sample;
+pub(crate) mod shift;
+pub(crate) mod step;
+pub(crate) mod tiles;

@@ -1,0 +1,159 @@
+//! One sub-step of a grid: every active tile, the interior and the border layer with their own inner loops.
+
+use crate::border::Axis;
+use crate::cpu::kernels::{Coefficients, LayerRow, interior_row, layer_row, rim_phi};
+use crate::cpu::tiles::{Mode, Tiles};
+use crate::state::State;
+
+/// Active tiles below this are stepped on one thread: waking others costs more than it saves.
+const PARALLEL_TILES: usize = 384;
+/// Rows of tiles that a thread takes at once.
+const GRAIN: usize = 4;
+
+/// What all rows read.
+struct Shared<'a> {
+    nx: usize,
+    nz: usize,
+    thickness: usize,
+    z: &'a [f32],
+    phi: [&'a [f32]; 2],
+    axes: [&'a Axis; 2],
+    tiles: &'a Tiles,
+    coefficients: Coefficients,
+}
+
+/// Rows `first..` of what is written.
+struct Band<'a> {
+    first: usize,
+    old: &'a mut [f32],
+    phi_x: &'a mut [f32],
+    phi_z: &'a mut [f32],
+}
+
+impl<'a> Band<'a> {
+    fn split(self, row: usize, nx: usize) -> (Band<'a>, Band<'a>) {
+        let at = (row - self.first) * nx;
+        let (old, old1) = self.old.split_at_mut(at);
+        let (phi_x, phi_x1) = self.phi_x.split_at_mut(at);
+        let (phi_z, phi_z1) = self.phi_z.split_at_mut(at);
+        let low = Band { first: self.first, old, phi_x, phi_z };
+        (low, Band { first: row, old: old1, phi_x: phi_x1, phi_z: phi_z1 })
+    }
+}
+
+/// Advances the state by one sub-step.
+pub(crate) fn step(state: &mut State, tiles: &Tiles, axes: &[Axis; 2], thickness: usize, k: Coefficients) {
+    let State { nx, nz, z, old, phi, phi_next: [next_x, next_z], .. } = state;
+    let shared = Shared {
+        nx: *nx,
+        nz: *nz,
+        thickness,
+        z,
+        phi: [&phi[0], &phi[1]],
+        axes: [&axes[0], &axes[1]],
+        tiles,
+        coefficients: k,
+    };
+    let band = Band { first: 0, old, phi_x: next_x, phi_z: next_z };
+    let grain = if tiles.active >= PARALLEL_TILES { GRAIN } else { usize::MAX };
+    walk(band, 0..tiles.count[1], grain, &shared);
+    std::mem::swap(&mut state.z, &mut state.old);
+    std::mem::swap(&mut state.phi, &mut state.phi_next);
+}
+
+/// Halves the rows of tiles over rayon's threads. Rows do not depend on each other, so neither do the bits.
+fn walk(band: Band, rows: std::ops::Range<usize>, grain: usize, shared: &Shared) {
+    if rows.len() > grain {
+        let middle = rows.start + rows.len() / 2;
+        let (low, high) = band.split(shared.tiles.span(1, middle).start, shared.nx);
+        rayon::join(|| walk(low, rows.start..middle, grain, shared), || walk(high, middle..rows.end, grain, shared));
+        return;
+    }
+    let Band { first, old, phi_x, phi_z } = band;
+    for tz in rows {
+        let tiles = shared.tiles.row(tz);
+        for j in shared.tiles.span(1, tz) {
+            let at = (j - first) * shared.nx;
+            let row = at..at + shared.nx;
+            let mut tx = 0;
+            while tx < tiles.len() {
+                let run = tiles[tx..].iter().take_while(|t| t.mode == Mode::Active).count();
+                if run > 0 {
+                    let cells = shared.tiles.span(0, tx).start..shared.tiles.span(0, tx + run - 1).end;
+                    let (old, phi_x, phi_z) = (&mut old[row.clone()], &mut phi_x[row.clone()], &mut phi_z[row.clone()]);
+                    step_run(j, cells, old, phi_x, phi_z, shared);
+                }
+                tx += run + 1;
+            }
+        }
+    }
+}
+
+/// Steps cells `run` of row `j`; the other arguments are that whole row.
+fn step_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], s: &Shared) {
+    let (nx, nz, w) = (s.nx, s.nz, s.thickness);
+    if j == 0 || run.is_empty() {
+        return;
+    }
+    let (start, end) = (run.start.max(1), run.end.min(nx - 1));
+    if j == nz - 1 {
+        for i in start..end {
+            let at = (j - 1) * nx + i;
+            let before = [s.z[at - 1], s.z[at], s.z[at + 1]];
+            let z = s.axes[1];
+            phi_z[i] = rim_phi(
+                s.phi[1][j * nx + i],
+                before,
+                [z.edge[j], z.gain[j], z.keep[j]],
+                s.axes[0].node[i],
+                s.coefficients,
+            );
+        }
+        return;
+    }
+    let mut layer = |from: usize, to: usize, old: &mut [f32]| {
+        if from < to {
+            layer_run(j, from..to, old, phi_x, phi_z, s);
+        }
+    };
+    if j <= w || j >= nz - 1 - w {
+        layer(start, end, old);
+    } else {
+        let (left, right) = (w + 1, nx - 1 - w);
+        layer(start, end.min(left), old);
+        layer(start.max(right), end, old);
+        let (from, to) = (start.max(left), end.min(right));
+        if from < to {
+            let around = |row: usize| &s.z[row * nx + from - 1..row * nx + to + 1];
+            interior_row(&mut old[from..to], around(j - 1), around(j), around(j + 1), s.coefficients);
+        }
+    }
+    if run.end == nx {
+        let x = s.axes[0];
+        let (i, at) = (nx - 1, j * nx + nx - 2);
+        let before = [s.z[at - nx], s.z[at], s.z[at + nx]];
+        let edge = [x.edge[i], x.gain[i], x.keep[i]];
+        phi_x[i] = rim_phi(s.phi[0][j * nx + i], before, edge, s.axes[1].node[j], s.coefficients);
+    }
+}
+
+fn layer_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], s: &Shared) {
+    let nx = s.nx;
+    let (from, to) = (run.start, run.end);
+    let around = |row: usize| &s.z[row * nx + from - 1..row * nx + to + 1];
+    let (x, z) = (s.axes[0], s.axes[1]);
+    let row = LayerRow {
+        below: around(j - 1),
+        row: around(j),
+        above: around(j + 1),
+        phi_x: &s.phi[0][j * nx + from..j * nx + to + 1],
+        phi_z: [&s.phi[1][j * nx + from..j * nx + to], &s.phi[1][(j + 1) * nx + from..(j + 1) * nx + to]],
+        node: &x.node[from..to],
+        edge: &x.edge[from..to + 1],
+        gain: &x.gain[from..to + 1],
+        keep: &x.keep[from..to + 1],
+        node_z: z.node[j],
+        edge_z: [[z.edge[j], z.gain[j], z.keep[j]], [z.edge[j + 1], z.gain[j + 1], z.keep[j + 1]]],
+    };
+    layer_row(&mut old[from..to], &mut phi_x[from..to], &mut phi_z[from..to], &row, s.coefficients);
+}

@@ -1,0 +1,158 @@
+//! Tiles of 16 x 16 cells on world multiples of 16, and which of them are stepped.
+//!
+//! A tile is stepped when it or one of its eight neighbours is busy: holds a height above [`QUIET_HEIGHT`] or foam
+//! above [`QUIET_FOAM`]. A tile that stops being stepped is set to zero. Standing on world cells, tiles decide the
+//! same wherever the window stands.
+
+use crate::desc::TILE;
+
+/// Waves below this height (metres) are let go: 0.01 mm.
+pub const QUIET_HEIGHT: f32 = 1e-5;
+/// Foam below this is let go.
+pub const QUIET_FOAM: f32 = 1e-3;
+
+/// What a tile does in this tick.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// All zero, not stepped.
+    #[default]
+    Quiet,
+    /// Stepped.
+    Active,
+    /// Was stepped in the last tick, to be zeroed now.
+    Ending,
+}
+
+/// One tile.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Tile {
+    /// Bound of |z| and |z_old|, metres.
+    pub(crate) height: f32,
+    /// Bound of the foam.
+    pub(crate) foam: f32,
+    pub(crate) mode: Mode,
+}
+
+impl Tile {
+    fn busy(&self) -> bool {
+        self.height > QUIET_HEIGHT || self.foam > QUIET_FOAM
+    }
+}
+
+/// The tiles that cover a window.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Tiles {
+    /// Cells of the window.
+    cells: [usize; 2],
+    /// Cells of the first tile that lie before the window.
+    pub(crate) offset: [usize; 2],
+    /// Tiles per axis, for any offset.
+    pub(crate) count: [usize; 2],
+    pub(crate) tiles: Vec<Tile>,
+    scratch: Vec<Tile>,
+    /// How many are active.
+    pub(crate) active: usize,
+}
+
+impl Tiles {
+    pub(crate) fn new(cells: [usize; 2], offset: [usize; 2]) -> Self {
+        let count = cells.map(|n| n.div_ceil(TILE) + 1);
+        let tiles = vec![Tile::default(); count[0] * count[1]];
+        Self { cells, offset, count, scratch: tiles.clone(), tiles, active: 0 }
+    }
+
+    /// Cells of the window that tile `t` covers along an axis.
+    pub(crate) fn span(&self, axis: usize, t: usize) -> std::ops::Range<usize> {
+        let first = (t * TILE).saturating_sub(self.offset[axis]);
+        let end = ((t + 1) * TILE - self.offset[axis]).min(self.cells[axis]);
+        first.min(end)..end
+    }
+
+    /// Tile of a cell along an axis.
+    pub(crate) fn of(&self, axis: usize, cell: usize) -> usize {
+        (cell + self.offset[axis]) / TILE
+    }
+
+    /// Tiles of one row of tiles.
+    pub(crate) fn row(&self, tz: usize) -> &[Tile] {
+        &self.tiles[tz * self.count[0]..(tz + 1) * self.count[0]]
+    }
+
+    /// Notes what a source did to the cells of `range`.
+    pub(crate) fn touch(&mut self, range: [[usize; 2]; 2], height: f32, foam: f32) {
+        for tz in self.of(1, range[1][0])..=self.of(1, range[1][1] - 1) {
+            for tx in self.of(0, range[0][0])..=self.of(0, range[0][1] - 1) {
+                let tile = &mut self.tiles[tz * self.count[0] + tx];
+                tile.height += height.abs();
+                tile.foam += foam;
+            }
+        }
+    }
+
+    /// Decides which tiles are stepped in this tick.
+    pub(crate) fn schedule(&mut self) {
+        let [nx, nz] = self.count;
+        self.active = 0;
+        for tz in 0..nz {
+            for tx in 0..nx {
+                let wanted = (tz.saturating_sub(1)..(tz + 2).min(nz)).any(|z| {
+                    let row = &self.tiles[z * nx..(z + 1) * nx];
+                    row[tx.saturating_sub(1)..(tx + 2).min(nx)].iter().any(Tile::busy)
+                });
+                let mut tile = self.tiles[tz * nx + tx];
+                tile.mode = match (wanted, tile.mode) {
+                    (true, _) => Mode::Active,
+                    (false, Mode::Active) => Mode::Ending,
+                    (false, _) => Mode::Quiet,
+                };
+                self.active += usize::from(wanted);
+                self.scratch[tz * nx + tx] = tile;
+            }
+        }
+        std::mem::swap(&mut self.tiles, &mut self.scratch);
+    }
+
+    /// Has every tile stepped.
+    pub(crate) fn activate_all(&mut self) {
+        self.active = self.tiles.len();
+        for tile in &mut self.tiles {
+            tile.mode = Mode::Active;
+        }
+    }
+
+    /// Whether nothing needs stepping.
+    pub(crate) fn asleep(&self) -> bool {
+        !self.tiles.iter().any(Tile::busy)
+    }
+
+    /// Moves to where a shifted window stands. Tiles keep their world place.
+    pub(crate) fn shift(&mut self, shift: [i64; 2]) {
+        let tile = TILE as i64;
+        let mut moved = [0i64; 2];
+        for k in 0..2 {
+            let at = self.offset[k] as i64 + shift[k];
+            moved[k] = at.div_euclid(tile);
+            self.offset[k] = at.rem_euclid(tile) as usize;
+        }
+        if moved == [0; 2] {
+            return;
+        }
+        let [nx, nz] = self.count.map(|n| n as i64);
+        for tz in 0..nz {
+            for tx in 0..nx {
+                let (x, z) = (tx + moved[0], tz + moved[1]);
+                let inside = (0..nx).contains(&x) && (0..nz).contains(&z);
+                self.scratch[(tz * nx + tx) as usize] =
+                    if inside { self.tiles[(z * nx + x) as usize] } else { Tile::default() };
+            }
+        }
+        std::mem::swap(&mut self.tiles, &mut self.scratch);
+    }
+
+    /// Forgets everything.
+    pub(crate) fn clear(&mut self, offset: [usize; 2]) {
+        self.offset = offset;
+        self.active = 0;
+        self.tiles.fill(Tile::default());
+    }
+}

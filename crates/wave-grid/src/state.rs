@@ -1,0 +1,59 @@
+//! The arrays of a grid, row-major, x fastest.
+
+/// Fields of a window of `nx * nz` cells.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct State {
+    pub(crate) nx: usize,
+    pub(crate) nz: usize,
+    /// Height now, metres.
+    pub(crate) z: Vec<f32>,
+    /// Height one sub-step ago; overwritten in place by the next one.
+    pub(crate) old: Vec<f32>,
+    /// Height at the end of the tick before, for drawing between ticks.
+    pub(crate) previous: Vec<f32>,
+    /// Foam, 0 to 1.
+    pub(crate) foam: Vec<f32>,
+    /// phi on the edges before each cell along x and z, half a sub-step ago; zero outside the layer.
+    pub(crate) phi: [Vec<f32>; 2],
+    /// Where the next phi is written.
+    pub(crate) phi_next: [Vec<f32>; 2],
+}
+
+impl State {
+    pub(crate) fn new(nx: usize, nz: usize) -> Self {
+        let zero = || vec![0.0; nx * nz];
+        Self {
+            nx,
+            nz,
+            z: zero(),
+            old: zero(),
+            previous: zero(),
+            foam: zero(),
+            phi: [zero(), zero()],
+            phi_next: [zero(), zero()],
+        }
+    }
+
+    /// Every array that moves with the water.
+    pub(crate) fn arrays(&mut self) -> [&mut Vec<f32>; 8] {
+        let Self { nx: _, nz: _, z, old, previous, foam, phi: [x, y], phi_next: [next_x, next_y] } = self;
+        [z, old, previous, foam, x, y, next_x, next_y]
+    }
+
+    pub(crate) fn clear(&mut self) {
+        for array in self.arrays() {
+            array.fill(0.0);
+        }
+    }
+
+    /// Zeroes a rectangle of cells, except in `previous`.
+    pub(crate) fn clear_cells(&mut self, x: std::ops::Range<usize>, z: std::ops::Range<usize>) {
+        let nx = self.nx;
+        let Self { nx: _, nz: _, z: height, old, previous: _, foam, phi: [a, b], phi_next: [c, d] } = self;
+        for j in z {
+            for array in [&mut *height, &mut *old, &mut *foam, &mut *a, &mut *b, &mut *c, &mut *d] {
+                array[j * nx + x.start..j * nx + x.end].fill(0.0);
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Where a grid stands: whole world cells, and the fraction of a cell that only its fade knows.
+
+use glam::{DVec2, Vec2};
+
+use crate::{GridDesc, desc::TILE};
+
+/// How far, in cells, the target may stray from the middle of the window before it shifts: one cell keeps a bobbing
+/// body from shifting the window to and fro.
+pub(crate) const DEAD_BAND: f64 = 1.0;
+/// The fade is zero this close to the edge (cells), so that a cubic kernel of two cells reads only zeros there.
+const MARGIN: f64 = 3.0;
+/// Cell indices beyond this are refused: f64 no longer resolves a cell there.
+const FARTHEST: f64 = 1e14;
+
+/// A rectangle of world cells. Cell (i, j) is centred at world ((corner.x + i + .5) h, (corner.z + j + .5) h).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window {
+    /// World index of cell (0, 0).
+    pub corner: [i64; 2],
+    /// Cells along x and z.
+    pub cells: [u32; 2],
+    /// Cell size h, metres.
+    pub cell_size: f32,
+}
+
+impl Window {
+    /// World position of the corner, metres.
+    pub fn world_corner(&self) -> DVec2 {
+        DVec2::new(self.corner[0] as f64, self.corner[1] as f64) * f64::from(self.cell_size)
+    }
+
+    /// Position of the corner relative to `origin`, metres.
+    pub fn local_corner(&self, origin: DVec2) -> Vec2 {
+        let d = self.world_corner() - origin;
+        Vec2::new(d.x as f32, d.y as f32)
+    }
+
+    /// A local point in units of cells from the corner; cell (i, j) covers [i, i + 1) x [j, j + 1).
+    pub fn cells_from_corner(&self, point: Vec2, origin: DVec2) -> DVec2 {
+        let corner = self.world_corner() - origin;
+        (DVec2::new(f64::from(point.x), f64::from(point.y)) - corner) / f64::from(self.cell_size)
+    }
+
+    /// Cells of the window's first tile that lie before its corner, per axis; tiles stand on world multiples of 16.
+    pub(crate) fn tile_offset(&self) -> [usize; 2] {
+        self.corner.map(|c| c.rem_euclid(TILE as i64) as usize)
+    }
+}
+
+/// What following a target asks of the state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Move {
+    /// Nothing.
+    Stay,
+    /// Shift the contents so that cell i becomes cell i - shift.
+    Shift([i64; 2]),
+    /// Nothing of the old window remains.
+    Clear,
+}
+
+/// A window with the place it leans to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) window: Window,
+    /// Target minus middle of the window, cells, within the dead-band.
+    pub(crate) lean: [f64; 2],
+    /// Extent without the border layer, cells.
+    interior: [i64; 2],
+    pml_width: u32,
+}
+
+impl Place {
+    /// A window whose middle is the world's origin.
+    pub(crate) fn new(desc: &GridDesc) -> Self {
+        let rim = 2 * (i64::from(desc.pml_width) + 1);
+        let window =
+            Window { corner: desc.cells.map(|n| -(i64::from(n) / 2)), cells: desc.cells, cell_size: desc.cell_size };
+        let interior = desc.cells.map(|n| i64::from(n) - rim);
+        let mut place = Self { window, lean: [0.0; 2], interior, pml_width: desc.pml_width };
+        place.lean = place.stray(DVec2::ZERO);
+        place
+    }
+
+    fn stray(&self, target: DVec2) -> [f64; 2] {
+        let h = f64::from(self.window.cell_size);
+        let at = [target.x / h, target.y / h];
+        std::array::from_fn(|k| at[k] - (self.window.corner[k] as f64 + f64::from(self.window.cells[k]) / 2.0))
+    }
+
+    /// Brings the middle within the dead-band of a world point. Points that are not finite or absurdly far are ignored.
+    pub(crate) fn follow(&mut self, target: DVec2) -> Move {
+        let h = f64::from(self.window.cell_size);
+        let stray = self.stray(target);
+        if !stray.iter().all(|s| s.is_finite()) || (target / h).abs().max_element() > FARTHEST {
+            return Move::Stay;
+        }
+        let shift: [i64; 2] = std::array::from_fn(|k| {
+            let beyond = (stray[k].abs() - DEAD_BAND).max(0.0).ceil() as i64;
+            if stray[k] < 0.0 { -beyond } else { beyond }
+        });
+        if shift == [0; 2] {
+            self.lean = stray;
+            return Move::Stay;
+        }
+        let far = (0..2).any(|k| shift[k].abs() >= self.interior[k]);
+        for k in 0..2 {
+            self.window.corner[k] += if far { stray[k].round() as i64 } else { shift[k] };
+        }
+        self.lean = self.stray(target);
+        if far { Move::Clear } else { Move::Shift(shift) }
+    }
+
+    /// Fade at each cell centre along one axis: 1 inside, 0 within three cells of the edge wherever the window leans.
+    /// The fade of a cell is the product of both axes'.
+    pub(crate) fn fade(&self, axis: usize, out: &mut [f32]) {
+        for (i, f) in out.iter_mut().enumerate() {
+            *f = fade_at(i as f64 + 0.5, self.window.cells[axis], self.lean[axis], self.pml_width);
+        }
+    }
+}
+
+/// Fade `x` cells from the corner.
+fn fade_at(x: f64, cells: u32, lean: f64, pml_width: u32) -> f32 {
+    let half = f64::from(cells) / 2.0;
+    let outer = half - MARGIN - DEAD_BAND;
+    let t = ((outer - (x - half - lean).abs()) / f64::from(pml_width)).clamp(0.0, 1.0);
+    (t * t * (3.0 - 2.0 * t)) as f32
+}
