@@ -17,6 +17,26 @@ fn looks_weight(index: u32, footprint: f32) -> f32 {
     return 1.0 - smoothstep(0.25, 0.5, footprint / c.tile);
 }
 
+// All grids for looks: waves too short for the footprint fade, so that a coarse mesh does not pick them up at random.
+fn grids_look(point: vec2<f32>, footprint: f32) -> vec4<f32> {
+    var sum = vec4<f32>(0.0);
+    for (var g = 0u; g < surface_table.grid_count; g++) {
+        let width = footprint / surface_table.grids[g].cell_size;
+        if width < 8.0 {
+            let waves = 1.0 - smoothstep(2.0, 8.0, width);
+            sum += grid_at(g, point) * vec4<f32>(waves, waves, waves, 1.0);
+        } else if width < 32.0 {
+            sum.w += grid_at(g, point).w * (1.0 - smoothstep(8.0, 32.0, width));
+        }
+    }
+    return sum;
+}
+
+// Keeps a slope below what water can stand at: folds of the horizontal displacement would sparkle.
+fn soft_slope(slope: vec2<f32>) -> vec2<f32> {
+    return slope * inverseSqrt(1.0 + dot(slope, slope) / 1.44);
+}
+
 // Where the vertex at a rest point stands (x, y, z), for looks.
 fn surface_vertex(rest: vec2<f32>, footprint: f32) -> vec3<f32> {
     var d = vec3<f32>(0.0);
@@ -30,7 +50,7 @@ fn surface_vertex(rest: vec2<f32>, footprint: f32) -> vec3<f32> {
         d += weight * textureSampleLevel(looks_displacement, looks_sampler, uv, c, max(looks_level(c, footprint), 0.0)).xyz;
     }
     let point = rest + d.xz;
-    return vec3<f32>(point.x, d.y + grids_at(point).x, point.y);
+    return vec3<f32>(point.x, d.y + grids_look(point, footprint).x, point.y);
 }
 
 // Mean square slope of the waves that a footprint (metres) hides.
@@ -59,7 +79,7 @@ fn surface_shading(rest: vec2<f32>, footprint: f32) -> SurfaceLook {
         foam += p.w;
     }
     let point = rest + displacement.xz;
-    let grids = grids_at(point);
-    let slope = world_slope(derivative, 0.0) + grids.yz;
+    let grids = grids_look(point, footprint);
+    let slope = soft_slope(world_slope(derivative, 0.0) + grids.yz);
     return SurfaceLook(normalize(vec3<f32>(-slope.x, 1.0, -slope.y)), hidden_slope(footprint), clamp(foam + grids.w, 0.0, 1.0));
 }

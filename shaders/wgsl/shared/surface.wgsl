@@ -80,30 +80,37 @@ fn ambient_displacement(rest: vec2<f32>) -> vec4<f32> {
     return sum;
 }
 
-// Height, slope and foam of all grids at a world point: (height, dh/dx, dh/dz, foam). Zero outside the windows.
+// Height, slope and foam of one grid at a world point: (height, dh/dx, dh/dz, foam). Zero outside its window.
+fn grid_at(index: u32, point: vec2<f32>) -> vec4<f32> {
+    let grid = surface_table.grids[index];
+    let x = (point - grid.corner) / grid.cell_size - 0.5;
+    let base = floor(x);
+    // Two cells of margin: the fade has brought the height to zero there.
+    if any(base < vec2<f32>(1.0)) || any(base > vec2<f32>(grid.cells) - 3.0) {
+        return vec4<f32>(0.0);
+    }
+    let t = x - base;
+    let wx = cubic_weights(t.x);
+    let wz = cubic_weights(t.y);
+    let dx = cubic_slopes(t.x) / grid.cell_size;
+    let dz = cubic_slopes(t.y) / grid.cell_size;
+    let first = vec2<u32>(base) - 1u;
+    var sum = vec4<f32>(0.0);
+    for (var j = 0u; j < 4u; j++) {
+        let row = grid.base + (first.y + j) * grid.cells.x + first.x;
+        for (var i = 0u; i < 4u; i++) {
+            let v = surface_grids[row + i];
+            sum += vec4<f32>(wx[i] * wz[j] * v.x, dx[i] * wz[j] * v.x, wx[i] * dz[j] * v.x, wx[i] * wz[j] * v.y);
+        }
+    }
+    return sum;
+}
+
+// The same of all grids.
 fn grids_at(point: vec2<f32>) -> vec4<f32> {
     var sum = vec4<f32>(0.0);
     for (var g = 0u; g < surface_table.grid_count; g++) {
-        let grid = surface_table.grids[g];
-        let x = (point - grid.corner) / grid.cell_size - 0.5;
-        let base = floor(x);
-        // Two cells of margin: the fade has brought the height to zero there.
-        if any(base < vec2<f32>(1.0)) || any(base > vec2<f32>(grid.cells) - 3.0) {
-            continue;
-        }
-        let t = x - base;
-        let wx = cubic_weights(t.x);
-        let wz = cubic_weights(t.y);
-        let dx = cubic_slopes(t.x) / grid.cell_size;
-        let dz = cubic_slopes(t.y) / grid.cell_size;
-        let first = vec2<u32>(base) - 1u;
-        for (var j = 0u; j < 4u; j++) {
-            let row = grid.base + (first.y + j) * grid.cells.x + first.x;
-            for (var i = 0u; i < 4u; i++) {
-                let v = surface_grids[row + i];
-                sum += vec4<f32>(wx[i] * wz[j] * v.x, dx[i] * wz[j] * v.x, wx[i] * dz[j] * v.x, wx[i] * wz[j] * v.y);
-            }
-        }
+        sum += grid_at(g, point);
     }
     return sum;
 }
