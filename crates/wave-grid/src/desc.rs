@@ -114,17 +114,19 @@ impl GridDesc {
             let courant = c * dt / h;
             Stepping { substeps: n, dt, a: courant * courant }
         };
+        // Speeds and ticks are f32: a bound met exactly in decimals must not fail by their rounding.
+        let stable = |a: f64, bound: f64| a <= bound * (1.0 + 1e-6);
         let (chosen, bound) = match self.substeps {
             Some(n) => {
                 within("substeps", f64::from(n), 1.0, f64::from(MAX_SUBSTEPS), "1 to 16")?;
                 (number(n), self.scheme.bound())
             }
             None => {
-                let fewest = (1..MAX_SUBSTEPS).find(|&n| number(n).a <= self.scheme.target());
+                let fewest = (1..MAX_SUBSTEPS).find(|&n| stable(number(n).a, self.scheme.target()));
                 (number(fewest.unwrap_or(MAX_SUBSTEPS)), self.scheme.target())
             }
         };
-        if chosen.a > bound {
+        if !stable(chosen.a, bound) {
             return Err(GridError::Unstable { dt: chosen.dt, h, c, a: chosen.a, bound });
         }
         Ok(chosen)

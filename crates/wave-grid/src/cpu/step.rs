@@ -97,17 +97,12 @@ fn step_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut 
     }
     let (start, end) = (run.start.max(1), run.end.min(nx - 1));
     if j == nz - 1 {
-        for i in start..end {
+        let z = s.axes[1];
+        let edge = [z.edge[j], z.gain[j], z.keep[j]];
+        for (i, phi) in phi_z.iter_mut().enumerate().take(end).skip(start) {
             let at = (j - 1) * nx + i;
             let before = [s.z[at - 1], s.z[at], s.z[at + 1]];
-            let z = s.axes[1];
-            phi_z[i] = rim_phi(
-                s.phi[1][j * nx + i],
-                before,
-                [z.edge[j], z.gain[j], z.keep[j]],
-                s.axes[0].node[i],
-                s.coefficients,
-            );
+            *phi = rim_phi(s.phi[1][j * nx + i], before, edge, s.axes[0].node[i], s.coefficients);
         }
         return;
     }
