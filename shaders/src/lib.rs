@@ -10,6 +10,7 @@ pub mod ocean;
 #[cfg(feature = "gpu")]
 pub mod pipeline;
 pub mod surface;
+pub mod turns;
 pub mod view;
 
 pub use layout::{Field, ParamLayout};

@@ -1,6 +1,124 @@
-//! Passes of the ocean.
+//! Passes of the ocean: modes to fields to looks.
+//!
+//! A synthesis is two dispatches over all cascades and spectra: `ocean_rows` (the spectra at one time and their
+//! transforms along x) and `ocean_columns` (the transforms along z, into the textures).
 
-use crate::Pass;
+use bytemuck::{Pod, Zeroable};
+
+pub use crate::surface::MAX_CASCADES;
+use crate::{Pass, param_layout, turns};
+
+/// Smallest side of a cascade, cells.
+pub const MIN_SIZE: u32 = 16;
+/// Largest side of a cascade, cells.
+pub const MAX_SIZE: u32 = 1024;
+/// Points that a thread of a transform holds: its radix.
+pub const FFT_POINTS: u32 = 16;
+/// Points in a workgroup's memory: as many lines as that holds (16 bytes a point, 16 KiB).
+pub const FFT_BLOCK: u32 = 1024;
+/// Invocations of a transform's workgroup.
+pub const FFT_THREADS: u32 = FFT_BLOCK / FFT_POINTS;
+/// Elements by which rows of the half-done spectra are longer than a cascade: keeps a column off one cache set.
+pub const FFT_PADDING: u32 = 8;
+
+/// A cascade as the ocean's passes see it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct OceanCascade {
+    /// Wavenumber step of the cells, rad/m.
+    pub wave_step: f32,
+    /// Standard deviation of the divergence of the other cascades' displacement, positive.
+    pub foam_spread: f32,
+    /// Mean foam that the other cascades account for, 0 to 1.
+    pub foam_share: f32,
+    /// Padding.
+    pub pad: f32,
+}
+
+/// Uniform of the ocean's passes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct OceanParams {
+    /// Time as a fraction of the loop, in 1/2^32.
+    pub phase: u32,
+    /// Number of cascades.
+    pub cascade_count: u32,
+    /// Factor on the horizontal displacement.
+    pub choppiness: f32,
+    /// Jacobian of the horizontal displacement below which water breaks.
+    pub foam_threshold: f32,
+    /// Factor on old foam, 0 to 1.
+    pub foam_decay: f32,
+    /// Padding.
+    pub pad: [u32; 3],
+    /// Cascades, longest first.
+    pub cascades: [OceanCascade; MAX_CASCADES],
+}
+
+const PARAMS: &[crate::ParamLayout] = &[
+    param_layout!(OceanCascade { wave_step, foam_spread, foam_share }),
+    param_layout!(OceanParams { phase, cascade_count, choppiness, foam_threshold, foam_decay, cascades }),
+];
+
+/// WGSL function whose body is `statement` once per point, `{e}` replaced by its number: a thread's points stay in
+/// registers only if every index is constant.
+fn unrolled(signature: &str, statement: &str) -> String {
+    let body: String =
+        (0..FFT_POINTS).map(|e| format!("    {};\n", statement.replace("{e}", &e.to_string()))).collect();
+    format!("fn {signature} {{\n{body}}}\n")
+}
+
+fn fft_constants() -> String {
+    [
+        format!("const OCEAN_CASCADES: u32 = {MAX_CASCADES}u;\n"),
+        format!("const BLOCK: u32 = {FFT_BLOCK}u;\nconst THREADS: u32 = {FFT_THREADS}u;\n"),
+        format!("override PITCH: u32 = N + {FFT_PADDING}u;\n"),
+        turns::constants(),
+        unrolled(
+            "points_load(v: ptr<function, Points>, line: u32, t: u32)",
+            "(*v)[{e}] = line_points[line_index(line, t + {e}u * THREADS_PER_LINE)]",
+        ),
+        unrolled(
+            "points_store(v: ptr<function, Points>, line: u32, first: u32, step: u32)",
+            "line_points[line_index(line, first + {e}u * step)] = (*v)[{e}]",
+        ),
+        unrolled(
+            "points_fetch(v: ptr<function, Points>, place: Place, t: u32)",
+            "(*v)[{e}] = fetch(place, t + {e}u * THREADS_PER_LINE)",
+        ),
+        unrolled(
+            "points_emit(v: ptr<function, Points>, place: Place, t: u32)",
+            "emit(place, t + {e}u * THREADS_PER_LINE, (*v)[{e}])",
+        ),
+    ]
+    .concat()
+}
+
+const FFT_TEXT: &str = concat!(
+    include_str!("../wgsl/shared/turns.wgsl"),
+    include_str!("../wgsl/shared/ocean.wgsl"),
+    include_str!("../wgsl/shared/fft.wgsl"),
+    include_str!("../wgsl/shared/fft_last.wgsl"),
+    include_str!("../wgsl/shared/fft_lines.wgsl"),
+);
+
+/// The spectra at one time and their transforms along x.
+pub const ROWS: Pass = Pass {
+    name: "ocean_rows",
+    constants: fft_constants,
+    parts: &[FFT_TEXT, include_str!("../wgsl/ocean_rows.wgsl")],
+    entry_points: &["ocean_rows"],
+    params: PARAMS,
+};
+
+/// The transforms along z, into the textures.
+pub const COLUMNS: Pass = Pass {
+    name: "ocean_columns",
+    constants: fft_constants,
+    parts: &[FFT_TEXT, include_str!("../wgsl/ocean_columns.wgsl")],
+    entry_points: &["ocean_columns"],
+    params: PARAMS,
+};
 
 /// The passes of this area.
-pub const PASSES: &[Pass] = &[];
+pub const PASSES: &[Pass] = &[ROWS, COLUMNS];
