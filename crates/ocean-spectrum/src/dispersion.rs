@@ -56,9 +56,7 @@ mod tests {
     #[test]
     fn known_wavelengths() {
         // Deep: g T^2/2 pi. A 3 s wave at 10 m is 14.0 m long, a 12 s wave 115.3 m would be 224.8 m in deep water.
-        let length = |period: f64, depth| {
-            std::f64::consts::TAU / wavenumber(std::f64::consts::TAU / period, depth)
-        };
+        let length = |period: f64, depth| std::f64::consts::TAU / wavenumber(std::f64::consts::TAU / period, depth);
         assert!((length(12.0, None) - 224.83).abs() < 0.01);
         assert!((length(3.0, Some(10.0)) - 14.0).abs() < 0.05);
         // Shallow limit: sqrt(g h).
@@ -69,8 +67,7 @@ mod tests {
     fn group_velocity_is_the_slope_of_frequency() {
         for depth in [None, Some(3.0), Some(40.0)] {
             for k in [0.01, 0.2, 2.0] {
-                let slope =
-                    (frequency(k * 1.0001, depth) - frequency(k * 0.9999, depth)) / (k * 2e-4);
+                let slope = (frequency(k * 1.0001, depth) - frequency(k * 0.9999, depth)) / (k * 2e-4);
                 assert!((group_velocity(k, depth) / slope - 1.0).abs() < 1e-6);
             }
         }

@@ -37,21 +37,8 @@ pub enum OceanError {
 }
 
 /// `Ok` when `value` is finite and `ok` holds.
-pub(crate) fn check(
-    field: &'static str,
-    value: f64,
-    ok: bool,
-    bound: &'static str,
-) -> Result<(), OceanError> {
-    if value.is_finite() && ok {
-        Ok(())
-    } else {
-        Err(OceanError::InvalidValue {
-            field,
-            value,
-            bound,
-        })
-    }
+pub(crate) fn check(field: &'static str, value: f64, ok: bool, bound: &'static str) -> Result<(), OceanError> {
+    if value.is_finite() && ok { Ok(()) } else { Err(OceanError::InvalidValue { field, value, bound }) }
 }
 
 /// Something that was understood but changed or left out; nothing failed.
@@ -77,17 +64,10 @@ impl std::fmt::Display for Notice {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match *self {
             Self::FetchClamped { given, used } => {
-                write!(
-                    f,
-                    "fetch of {given:.0} m shortened to {used:.0} m, where this wind's sea is fully grown"
-                )
+                write!(f, "fetch of {given:.0} m shortened to {used:.0} m, where this wind's sea is fully grown")
             }
             Self::VarianceLost { share } => {
-                write!(
-                    f,
-                    "the cascades do not hold {:.1} % of the sea's variance",
-                    100.0 * share
-                )
+                write!(f, "the cascades do not hold {:.1} % of the sea's variance", 100.0 * share)
             }
         }
     }

@@ -5,10 +5,8 @@ use crate::{OceanError, SeaState};
 
 pub(crate) fn read(path: &Path) -> Result<SeaState, OceanError> {
     let name = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| OceanError::Unreadable {
-        file: name.clone(),
-        reason: error.to_string(),
-    })?;
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| OceanError::Unreadable { file: name.clone(), reason: error.to_string() })?;
     parse(&name, &text)
 }
 

@@ -3,15 +3,19 @@
 pub mod dispersion;
 mod error;
 mod file;
+mod kernel;
 mod modes;
 mod ocean;
+mod pack;
 mod patch;
 mod query;
 mod random;
+pub mod reference;
 mod sea;
 mod shape;
 mod spectrum;
 mod synthesis;
+pub mod turns;
 
 pub use error::{Notice, OceanError};
 pub use modes::CascadeModes;

@@ -46,20 +46,12 @@ impl CascadeModes {
     /// Variance of the height over the tile and all times, m^2.
     pub fn variance(&self) -> f64 {
         let square = |x: f32| f64::from(x) * f64::from(x);
-        2.0 * self
-            .amp
-            .iter()
-            .map(|a| square(a[0]) + square(a[1]))
-            .sum::<f64>()
+        2.0 * self.amp.iter().map(|a| square(a[0]) + square(a[1])).sum::<f64>()
     }
 }
 
 pub(crate) fn signed(index: u32, size: u32) -> i32 {
-    if index < size / 2 {
-        index as i32
-    } else {
-        index as i32 - size as i32
-    }
+    if index < size / 2 { index as i32 } else { index as i32 - size as i32 }
 }
 
 /// Bands of the cascades, longest first. The first starts at 0: it takes all waves that its tile holds. The last ends
@@ -71,14 +63,7 @@ pub(crate) fn bands(cascades: &[CascadeDesc]) -> Vec<[f64; 2]> {
             let last = &cascades[cascades.len() - 1];
             let nyquist = 0.5 * TAU * f64::from(last.size) / f64::from(last.tile);
             let from = if c == 0 { 0.0 } else { start(c) };
-            [
-                from,
-                if c + 1 < cascades.len() {
-                    start(c + 1)
-                } else {
-                    nyquist
-                },
-            ]
+            [from, if c + 1 < cascades.len() { start(c + 1) } else { nyquist }]
         })
         .collect()
 }
@@ -96,39 +81,30 @@ pub(crate) fn build(
     let step = TAU / f64::from(desc.tile);
     let mut h0 = vec![[0.0f32; 2]; size * size];
     let mut n = vec![0u32; size * size];
-    h0.par_chunks_mut(size)
-        .zip(n.par_chunks_mut(size))
-        .enumerate()
-        .for_each(|(row, (h0, n))| {
-            let j = signed(row as u32, desc.size);
-            for (column, (h0, n)) in h0.iter_mut().zip(n).enumerate() {
-                let i = signed(column as u32, desc.size);
-                let nyquist = row == size / 2 || column == size / 2;
-                if nyquist || (i, j) == (0, 0) || !may_hold(i, j, step, band) {
-                    continue;
-                }
-                // Each of h0(k) and conj(h0(-k)) carries half of a wave's amplitude: its variance is 2 |h0|^2.
-                let modulus = (0.5 * cell_variance(spectrum, i, j, step, band)).sqrt();
-                let turns = f64::from(random::phase(seed, index, i, j)) / 4_294_967_296.0;
-                let (sin, cos) = libm::sincos(TAU * turns);
-                *h0 = [(modulus * cos) as f32, (modulus * sin) as f32];
-                let k = step * f64::from(i * i + j * j).sqrt();
-                *n = turns_per_loop(dispersion::frequency(k, spectrum.depth()), loop_time);
+    h0.par_chunks_mut(size).zip(n.par_chunks_mut(size)).enumerate().for_each(|(row, (h0, n))| {
+        let j = signed(row as u32, desc.size);
+        for (column, (h0, n)) in h0.iter_mut().zip(n).enumerate() {
+            let i = signed(column as u32, desc.size);
+            let nyquist = row == size / 2 || column == size / 2;
+            if nyquist || (i, j) == (0, 0) || !may_hold(i, j, step, band) {
+                continue;
             }
-        });
+            // Each of h0(k) and conj(h0(-k)) carries half of a wave's amplitude: its variance is 2 |h0|^2.
+            let modulus = (0.5 * cell_variance(spectrum, i, j, step, band)).sqrt();
+            let turns = f64::from(random::phase(seed, index, i, j)) / 4_294_967_296.0;
+            let (sin, cos) = libm::sincos(TAU * turns);
+            *h0 = [(modulus * cos) as f32, (modulus * sin) as f32];
+            let k = step * f64::from(i * i + j * j).sqrt();
+            *n = turns_per_loop(dispersion::frequency(k, spectrum.depth()), loop_time);
+        }
+    });
     let amp = (0..size * size)
         .map(|cell| {
             let mirror = ((size - cell / size) % size) * size + (size - cell % size) % size;
             [h0[cell][0], h0[cell][1], h0[mirror][0], -h0[mirror][1]]
         })
         .collect();
-    CascadeModes {
-        size: desc.size,
-        tile: desc.tile,
-        band,
-        amp,
-        n,
-    }
+    CascadeModes { size: desc.size, tile: desc.tile, band, amp, n }
 }
 
 /// Nearest whole number of turns, at least 1.

@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec2, Vec2};
+use rayon::prelude::*;
 
 use crate::error::check;
 use crate::modes::{self, CascadeModes};
+use crate::query::Layer;
 use crate::spectrum::WaveSpectrum;
 use crate::synthesis::Synthesis;
 use crate::{Notice, OceanError, SeaState, dispersion};
@@ -73,38 +75,13 @@ impl OceanDesc {
         let mut last = f32::INFINITY;
         for c in &self.cascades {
             let ok = c.size.is_power_of_two() && (16..=1024).contains(&c.size);
-            check(
-                "cascade size",
-                c.size.into(),
-                ok,
-                "a power of two from 16 to 1024",
-            )?;
-            check(
-                "cascade tile",
-                c.tile.into(),
-                (0.5..=100e3).contains(&c.tile),
-                "0.5 to 100000 m",
-            )?;
-            check(
-                "cascade tile",
-                c.tile.into(),
-                c.tile <= 0.8 * last,
-                "at most 0.8 of the tile before it",
-            )?;
+            check("cascade size", c.size.into(), ok, "a power of two from 16 to 1024")?;
+            check("cascade tile", c.tile.into(), (0.5..=100e3).contains(&c.tile), "0.5 to 100000 m")?;
+            check("cascade tile", c.tile.into(), c.tile <= 0.8 * last, "at most 0.8 of the tile before it")?;
             last = c.tile;
         }
-        check(
-            "choppiness",
-            self.choppiness.into(),
-            (0.0..=2.0).contains(&self.choppiness),
-            "0 to 2",
-        )?;
-        check(
-            "loop_time",
-            self.loop_time,
-            (10.0..=10e3).contains(&self.loop_time),
-            "10 to 10000 s",
-        )
+        check("choppiness", self.choppiness.into(), (0.0..=2.0).contains(&self.choppiness), "0 to 2")?;
+        check("loop_time", self.loop_time, (10.0..=10e3).contains(&self.loop_time), "10 to 10000 s")
     }
 }
 
@@ -128,9 +105,7 @@ pub struct Ocean {
     pub(crate) desc: OceanDesc,
     pub(crate) spectrum: WaveSpectrum,
     pub(crate) modes: Vec<CascadeModes>,
-    pub(crate) synthesis: Vec<Synthesis>,
-    pub(crate) offsets: Vec<Vec2>,
-    pub(crate) bands: Vec<crate::patch::Band>,
+    pub(crate) layers: Vec<Layer>,
     notices: Vec<Notice>,
     phase: u32,
     variance: f64,
@@ -147,16 +122,7 @@ impl Ocean {
         let modes: Vec<_> = modes::bands(&desc.cascades)
             .into_iter()
             .enumerate()
-            .map(|(c, band)| {
-                modes::build(
-                    &spectrum,
-                    desc.cascades[c],
-                    band,
-                    c,
-                    desc.seed,
-                    desc.loop_time,
-                )
-            })
+            .map(|(c, band)| modes::build(&spectrum, desc.cascades[c], band, c, desc.seed, desc.loop_time))
             .collect();
         let variance = modes.iter().map(CascadeModes::variance).sum::<f64>();
         let mut notices = spectrum.notices().to_vec();
@@ -164,20 +130,9 @@ impl Ocean {
         if share > 0.01 {
             notices.push(Notice::VarianceLost { share });
         }
-        let synthesis = Synthesis::all(&modes, &desc);
-        let bands = modes.iter().map(|m| crate::patch::Band::of(m)).collect();
-        let offsets = vec![Vec2::ZERO; modes.len()];
-        let mut ocean = Self {
-            desc,
-            spectrum,
-            modes,
-            synthesis,
-            offsets,
-            bands,
-            notices,
-            phase: 0,
-            variance,
-        };
+        let layers =
+            modes.iter().zip(Synthesis::all(&modes, &desc)).map(|(modes, fields)| Layer::new(modes, fields)).collect();
+        let mut ocean = Self { desc, spectrum, modes, layers, notices, phase: 0, variance };
         ocean.synthesise();
         Ok(ocean)
     }
@@ -225,8 +180,15 @@ impl Ocean {
         self.phase
     }
 
+    /// Time of the surface held, seconds within the loop: the time set, rounded to 2^-32 of the loop (.24 microseconds
+    /// at the default loop).
+    pub fn time(&self) -> f64 {
+        f64::from(self.phase) / 4_294_967_296.0 * self.desc.loop_time
+    }
+
     fn synthesise(&mut self) {
-        Synthesis::run(&mut self.synthesis, &self.modes, self.phase);
+        let phase = self.phase;
+        self.layers.par_iter_mut().for_each(|layer| layer.fields.run(phase));
     }
 
     /// World position (x, z) of the local origin, metres. The sea stays where it is in the world. Ignored if not finite.
@@ -234,9 +196,9 @@ impl Ocean {
         if !origin.is_finite() {
             return;
         }
-        for (offset, modes) in self.offsets.iter_mut().zip(&self.modes) {
+        for (layer, modes) in self.layers.iter_mut().zip(&self.modes) {
             let tile = f64::from(modes.tile);
-            *offset = DVec2::new(origin.x.rem_euclid(tile), origin.y.rem_euclid(tile)).as_vec2();
+            layer.offset = DVec2::new(origin.x.rem_euclid(tile), origin.y.rem_euclid(tile)).as_vec2();
         }
     }
 
@@ -245,7 +207,7 @@ impl Ocean {
     /// # Panics
     /// If there is no such cascade.
     pub fn offset(&self, c: usize) -> Vec2 {
-        self.offsets[c]
+        self.layers[c].offset
     }
 
     /// The arrays of cascade `c`.
@@ -253,13 +215,13 @@ impl Ocean {
     /// # Panics
     /// If there is no such cascade.
     pub fn fields(&self, c: usize) -> CascadeFields<'_> {
-        let synthesis = &self.synthesis[c];
+        let fields = &self.layers[c].fields;
         CascadeFields {
             size: self.modes[c].size,
             tile: self.modes[c].tile,
-            displacement: synthesis.displacement(),
-            derivative: synthesis.derivative(),
-            velocity: synthesis.velocity(),
+            displacement: fields.displacement(),
+            derivative: fields.derivative(),
+            velocity: fields.velocity(),
         }
     }
 

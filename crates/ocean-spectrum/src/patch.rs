@@ -2,6 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
+use crate::query::{self, is_place, world_slope};
 use crate::{CascadeModes, Ocean};
 
 /// The sea around a point as a small body feels it: a plane with its motion.
@@ -15,34 +16,87 @@ pub struct OceanPatch {
     pub velocity: Vec3,
     /// Vertical acceleration of the water at the surface, m/s^2.
     pub vertical_acceleration: f32,
-    /// Wavenumber k with which the motion fades with depth as e^(-k d), rad/m.
+    /// Wavenumber k with which the motion fades with depth as e^(-k d), rad/m; see [`Ocean::decay_wavenumber`].
     pub decay_wavenumber: f32,
 }
 
-/// Energy figures of a cascade's band.
+/// Means over the energy of one cascade.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Band {
-    variance: f64,
-    wavenumber: f64,
+    variance: f32,
+    wavenumber: f32,
 }
 
 impl Band {
     pub(crate) fn of(modes: &CascadeModes) -> Self {
-        Self {
-            variance: modes.variance(),
-            wavenumber: modes.band[1],
+        let size = modes.size as usize;
+        let (mut sum, mut weighted) = (f64::MIN_POSITIVE, 0.0);
+        for (cell, amp) in modes.amp.iter().enumerate() {
+            let power = f64::from(amp[0] * amp[0] + amp[1] * amp[1]);
+            let index = |i: usize| f64::from(modes.signed(i as u32));
+            let (i, j) = (index(cell % size), index(cell / size));
+            sum += power;
+            weighted += power * modes.step() * (i * i + j * j).sqrt();
         }
+        Self { variance: modes.variance() as f32, wavenumber: (weighted / sum) as f32 }
+    }
+
+    /// Share of the waves that is left in their mean over a disc: `2 J1(x)/x` at `x = k radius`, 0 from its first zero.
+    fn share(self, radius: f32) -> f32 {
+        let x = self.wavenumber * radius.max(1e-3);
+        if x < 3.8317 { 2.0 * libm::j1f(x) / x } else { 0.0 }
     }
 }
 
 impl Ocean {
-    /// The sea under a body of the given radius (metres) at a local position.
+    /// The sea under a body of the given radius (metres) at a local position, at the time set.
+    ///
+    /// A body does not feel waves much shorter than itself, since their rise and fall cancels over its area: each
+    /// cascade counts by the mean that is left over a disc of that radius at the cascade's mean wavenumber. With
+    /// radius 0 the answer is that of [`Ocean::sample`]. Calm water where the position is not finite or farther than
+    /// 10^8 m; a radius that is negative or not a number counts as 0.
     pub fn patch(&self, center: Vec2, radius: f32) -> OceanPatch {
-        let _ = (
-            center,
-            radius,
-            &self.bands[0].variance,
-            self.bands[0].wavenumber,
-        );
-        OceanPatch::default()
+        let decay_wavenumber = self.decay_wavenumber(radius);
+        if !is_place(center) {
+            return OceanPatch { decay_wavenumber, ..Default::default() };
+        }
+        let rest = query::find(&self.layers, center).rest;
+        let (mut p, mut d, mut v) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        for layer in &self.layers {
+            let share = layer.band.share(radius);
+            if share == 0.0 {
+                continue;
+            }
+            let taps = layer.taps(rest);
+            let add = |sum: &mut [f32; 4], texels| {
+                for (sum, value) in sum.iter_mut().zip(taps.read(texels)) {
+                    *sum += share * value;
+                }
+            };
+            add(&mut p, layer.fields.displacement());
+            add(&mut d, layer.fields.derivative());
+            add(&mut v, layer.fields.velocity());
+        }
+        OceanPatch {
+            height: p[1],
+            gradient: world_slope(d, p[3]),
+            velocity: Vec3::new(v[0], v[1], v[2]),
+            vertical_acceleration: v[3],
+            decay_wavenumber,
+        }
+    }
+
+    /// Mean wavenumber, weighted by variance, of the waves that a body of the given radius (metres) feels, rad/m: the
+    /// pressure and motion of the sea fade about as e^(-k d) with depth d under it.
+    pub fn decay_wavenumber(&self, radius: f32) -> f32 {
+        let (mut sum, mut weighted) = (f32::MIN_POSITIVE, 0.0);
+        for band in self.layers.iter().map(|layer| layer.band) {
+            let share = band.share(radius);
+            let weight = band.variance * share * share;
+            sum += weight;
+            weighted += weight * band.wavenumber;
+        }
+        // A body that averages out every wave feels at least the longest.
+        if weighted > 0.0 { weighted / sum } else { self.layers[0].band.wavenumber }
     }
 }

@@ -105,46 +105,24 @@ impl Default for SeaState {
 impl SeaState {
     /// JONSWAP wind sea: wind speed at 10 m in m/s, fetch in metres, direction towards which it blows in radians.
     pub fn wind(wind_speed: f32, fetch: f32, direction: f32) -> Self {
-        Self::single(
-            Spectrum::JonswapFetch { wind_speed, fetch },
-            direction,
-            Spreading::Cos2s { s: WIND_SEA_S },
-        )
+        Self::single(Spectrum::JonswapFetch { wind_speed, fetch }, direction, Spreading::Cos2s { s: WIND_SEA_S })
     }
 
     /// JONSWAP (gamma 3.3) by significant height in metres and peak period in seconds.
     pub fn height_period(significant_height: f32, peak_period: f32, direction: f32) -> Self {
-        let spectrum = Spectrum::Jonswap {
-            significant_height,
-            peak_period,
-            gamma: 3.3,
-        };
+        let spectrum = Spectrum::Jonswap { significant_height, peak_period, gamma: 3.3 };
         Self::single(spectrum, direction, Spreading::Cos2s { s: WIND_SEA_S })
     }
 
     /// Phillips as in Tessendorf 2001, with the height of the fully grown sea of that wind (.21 U^2/g).
     pub fn phillips(wind_speed: f32, direction: f32) -> Self {
         let significant_height = 0.21 * wind_speed * wind_speed / crate::GRAVITY as f32;
-        Self::single(
-            Spectrum::Phillips {
-                wind_speed,
-                significant_height,
-            },
-            direction,
-            Spreading::BothWays,
-        )
+        Self::single(Spectrum::Phillips { wind_speed, significant_height }, direction, Spreading::BothWays)
     }
 
     /// A sea of one partition over deep water.
     pub fn single(spectrum: Spectrum, direction: f32, spreading: Spreading) -> Self {
-        Self {
-            partitions: vec![Partition {
-                spectrum,
-                direction,
-                spreading,
-            }],
-            depth: None,
-        }
+        Self { partitions: vec![Partition { spectrum, direction, spreading }], depth: None }
     }
 
     /// Reads a sea file; the format is described at [`SeaState::parse`].
@@ -182,12 +160,7 @@ impl SeaState {
         let n = self.partitions.len();
         check("partitions", n as f64, (1..=16).contains(&n), "1 to 16")?;
         if let Some(depth) = self.depth {
-            check(
-                "depth",
-                depth.into(),
-                (0.5..=20e3).contains(&depth),
-                "0.5 to 20000 m",
-            )?;
+            check("depth", depth.into(), (0.5..=20e3).contains(&depth), "0.5 to 20000 m")?;
         }
         self.partitions.iter().try_for_each(Partition::validate)
     }
@@ -195,20 +168,12 @@ impl SeaState {
 
 impl Partition {
     fn validate(&self) -> Result<(), OceanError> {
-        check(
-            "direction",
-            self.direction.into(),
-            self.direction.abs() <= 1e3,
-            "a finite angle in radians",
-        )?;
+        check("direction", self.direction.into(), self.direction.abs() <= 1e3, "a finite angle in radians")?;
         if let Spreading::Cos2s { s } = self.spreading {
             check_s(s)?;
         }
         match &self.spectrum {
-            &Spectrum::Phillips {
-                wind_speed,
-                significant_height,
-            } => {
+            &Spectrum::Phillips { wind_speed, significant_height } => {
                 check_wind(wind_speed)?;
                 check_height(significant_height)
             }
@@ -217,24 +182,10 @@ impl Partition {
                 check_wind(wind_speed)?;
                 check("fetch", fetch.into(), fetch >= 100.0, "from 100 m")
             }
-            &Spectrum::Jonswap {
-                significant_height,
-                peak_period,
-                gamma,
-            } => {
+            &Spectrum::Jonswap { significant_height, peak_period, gamma } => {
                 check_height(significant_height)?;
-                check(
-                    "peak_period",
-                    peak_period.into(),
-                    (0.5..=40.0).contains(&peak_period),
-                    "0.5 to 40 s",
-                )?;
-                check(
-                    "gamma",
-                    gamma.into(),
-                    (1.0..=20.0).contains(&gamma),
-                    "1 to 20",
-                )
+                check("peak_period", peak_period.into(), (0.5..=40.0).contains(&peak_period), "0.5 to 40 s")?;
+                check("gamma", gamma.into(), (1.0..=20.0).contains(&gamma), "1 to 20")
             }
             Spectrum::Table(rows) => validate_table(rows),
         }
@@ -246,51 +197,21 @@ fn check_s(s: f32) -> Result<(), OceanError> {
 }
 
 fn check_wind(wind: f32) -> Result<(), OceanError> {
-    check(
-        "wind_speed",
-        wind.into(),
-        (0.5..=80.0).contains(&wind),
-        "0.5 to 80 m/s",
-    )
+    check("wind_speed", wind.into(), (0.5..=80.0).contains(&wind), "0.5 to 80 m/s")
 }
 
 fn check_height(height: f32) -> Result<(), OceanError> {
-    check(
-        "significant_height",
-        height.into(),
-        height > 0.0 && height <= 40.0,
-        "above 0 to 40 m",
-    )
+    check("significant_height", height.into(), height > 0.0 && height <= 40.0, "above 0 to 40 m")
 }
 
 fn validate_table(rows: &[TableRow]) -> Result<(), OceanError> {
-    check(
-        "table rows",
-        rows.len() as f64,
-        (3..=4096).contains(&rows.len()),
-        "3 to 4096",
-    )?;
+    check("table rows", rows.len() as f64, (3..=4096).contains(&rows.len()), "3 to 4096")?;
     let mut last = 0.0;
     for row in rows {
         let f = row.frequency;
-        check(
-            "frequency",
-            f.into(),
-            f > last && f <= 5.0,
-            "above the row before (and 0), up to 5 Hz",
-        )?;
-        check(
-            "density",
-            row.density.into(),
-            (0.0..=1e6).contains(&row.density),
-            "0 to 1e6 m^2/Hz",
-        )?;
-        check(
-            "direction",
-            row.direction.into(),
-            row.direction.abs() <= 1e3,
-            "a finite angle in radians",
-        )?;
+        check("frequency", f.into(), f > last && f <= 5.0, "above the row before (and 0), up to 5 Hz")?;
+        check("density", row.density.into(), (0.0..=1e6).contains(&row.density), "0 to 1e6 m^2/Hz")?;
+        check("direction", row.direction.into(), row.direction.abs() <= 1e3, "a finite angle in radians")?;
         check_s(row.s)?;
         last = f;
     }

@@ -34,21 +34,10 @@ impl WaveSpectrum {
         sea.validate()?;
         let depth = sea.depth.map(f64::from);
         let mut notices = Vec::new();
-        let shapes = sea
-            .partitions
-            .iter()
-            .map(|p| Shape::new(p, depth, &mut notices))
-            .collect();
+        let shapes = sea.partitions.iter().map(|p| Shape::new(p, depth, &mut notices)).collect();
         let highest_omega = dispersion::frequency(SLOPE_CUTOFF, depth);
-        let mut spectrum = Self {
-            shapes,
-            depth,
-            notices,
-            variance: 0.0,
-            peak_frequency: 1.0,
-            slope_above: Vec::new(),
-            highest_omega,
-        };
+        let mut spectrum =
+            Self { shapes, depth, notices, variance: 0.0, peak_frequency: 1.0, slope_above: Vec::new(), highest_omega };
         spectrum.tabulate();
         Ok(spectrum)
     }
@@ -95,11 +84,7 @@ impl WaveSpectrum {
             return 0.0;
         }
         let omega = dispersion::frequency(k, self.depth);
-        let sum: f64 = self
-            .shapes
-            .iter()
-            .map(|shape| shape.directional(omega, kx / k, kz / k))
-            .sum();
+        let sum: f64 = self.shapes.iter().map(|shape| shape.directional(omega, kx / k, kz / k)).sum();
         sum * dispersion::group_velocity(k, self.depth) / k
     }
 
@@ -141,8 +126,7 @@ impl WaveSpectrum {
             return 0.0;
         }
         let omega = dispersion::frequency(k, self.depth);
-        let x = libm::log(omega / LOWEST_OMEGA) / libm::log(self.highest_omega / LOWEST_OMEGA)
-            * STEPS as f64;
+        let x = libm::log(omega / LOWEST_OMEGA) / libm::log(self.highest_omega / LOWEST_OMEGA) * STEPS as f64;
         let x = x.clamp(0.0, STEPS as f64);
         let i = (x as usize).min(STEPS - 1);
         let t = x - i as f64;

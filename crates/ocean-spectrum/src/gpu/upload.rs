@@ -1,0 +1,130 @@
+//! Shape, parameters and buffers of a sea on the GPU.
+
+use open_water_shaders::ocean::{FFT_BLOCK, FFT_PADDING, FFT_THREADS, OceanParams};
+
+use super::error::{GpuError, at_most, equal};
+use super::foam;
+use crate::Ocean;
+
+/// Cascades and their size, from which every array's size follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shape {
+    pub(super) count: u32,
+    pub(super) size: u32,
+}
+
+impl Shape {
+    pub(super) fn of(ocean: &Ocean) -> Result<Self, GpuError> {
+        let size = ocean.modes()[0].size;
+        for modes in ocean.modes() {
+            equal("size of a cascade", modes.size, size)?;
+        }
+        Ok(Self { count: ocean.modes().len() as u32, size })
+    }
+
+    /// Layers of displacement and derivative together.
+    pub(super) fn layers(self) -> u32 {
+        2 * self.count
+    }
+
+    /// Bytes of the spectra between the two passes.
+    pub(super) fn half_done_bytes(self) -> u64 {
+        16 * u64::from(self.layers()) * u64::from(self.size) * u64::from(self.size + FFT_PADDING)
+    }
+
+    pub(super) fn check(self, limits: &wgpu::Limits) -> Result<(), GpuError> {
+        let binding = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        at_most("bytes of half-done spectra", self.half_done_bytes(), binding)?;
+        at_most("texels per side", self.size.into(), limits.max_texture_dimension_2d.into())?;
+        at_most("texture layers", self.layers().into(), limits.max_texture_array_layers.into())?;
+        let memory = limits.max_compute_workgroup_storage_size;
+        at_most("bytes of workgroup memory", u64::from(16 * FFT_BLOCK), memory.into())?;
+        let invocations = limits.max_compute_invocations_per_workgroup;
+        at_most("invocations of a workgroup", FFT_THREADS.into(), invocations.into())?;
+        let textures = limits.max_storage_textures_per_shader_stage;
+        at_most("storage textures of a stage", 4, textures.into())
+    }
+
+    pub(super) fn check_same(self, other: Self) -> Result<(), GpuError> {
+        equal("number of cascades", other.count, self.count)?;
+        equal("size of a cascade", other.size, self.size)
+    }
+}
+
+pub(super) fn params(ocean: &Ocean) -> OceanParams {
+    let mut params = OceanParams {
+        phase: ocean.phase(),
+        cascade_count: ocean.modes().len() as u32,
+        choppiness: ocean.desc().choppiness,
+        foam_threshold: foam::FOAM_THRESHOLD,
+        foam_decay: 1.0,
+        ..OceanParams::default()
+    };
+    for (to, from) in params.cascades.iter_mut().zip(foam::cascades(ocean)) {
+        *to = from;
+    }
+    params
+}
+
+/// A buffer that holds `bytes`.
+pub(super) fn buffer(
+    device: &wgpu::Device,
+    label: &str,
+    bytes: &[u8],
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
+    use wgpu::util::DeviceExt;
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some(label),
+        contents: bytes,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+    })
+}
+
+/// A texture array of both kinds of layers, and the views of each kind.
+pub(super) fn texture(
+    device: &wgpu::Device,
+    label: &str,
+    shape: Shape,
+    format: wgpu::TextureFormat,
+    mip_level_count: u32,
+) -> (wgpu::Texture, [wgpu::TextureView; 2]) {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width: shape.size,
+            height: shape.size,
+            depth_or_array_layers: shape.layers(),
+        },
+        mip_level_count,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::STORAGE_BINDING
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC
+            | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let views = [0, shape.count].map(|base_array_layer| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            label: Some(label),
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            base_array_layer,
+            array_layer_count: Some(shape.count),
+            ..Default::default()
+        })
+    });
+    (texture, views)
+}
+
+/// One mip level, all layers.
+pub(super) fn level(texture: &wgpu::Texture, base_mip_level: u32) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        label: Some("mip level"),
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        base_mip_level,
+        mip_level_count: Some(1),
+        ..Default::default()
+    })
+}
