@@ -1,0 +1,91 @@
+//! Water friction and form drag: coefficients from the hull's dimensions, and their implicit integration.
+
+use glam::Vec3;
+
+use crate::hull::Waterline;
+
+/// Resistance against the water, along and about the hull's axes. Acts in proportion to the immersed volume.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Drag {
+    /// Linear resistance in N s/m: surge (x), heave (y), sway (z).
+    pub linear: Vec3,
+    /// Quadratic resistance `rho Cd A / 2` in kg/m along each axis.
+    pub quadratic: Vec3,
+    /// How much of the speed across an axis feeds its quadratic resistance, 0 to 1. With 1 in sway a hull under way
+    /// resists sideways motion in proportion to its speed: this is what a keel does.
+    pub cross_flow: Vec3,
+    /// Linear resistance to rotation in N m s: roll (x), yaw (y), pitch (z).
+    pub angular_linear: Vec3,
+    /// Quadratic resistance to rotation in N m s^2.
+    pub angular_quadratic: Vec3,
+    /// Resistance to rotation per speed through the water in N s^2.
+    pub angular_forward: Vec3,
+    /// Where sideways resistance attacks, hull frame, m. Aft of the centre of mass the hull keeps its course.
+    pub lateral_center: Vec3,
+}
+
+/// Drag coefficients of a bluff body, from memory of Hoerner's tables: cube face, plate, sphere.
+const BLUFF: f32 = 1.0;
+const PLATE: f32 = 1.1;
+const SPHERE: f32 = 0.47;
+/// A pointed hull along its axis.
+const POINTED: f32 = 0.15;
+/// Share of cross flow in heave and the tilting modes of a long hull: its bottom follows the surface it runs along.
+const PLANING: f32 = 0.1;
+
+impl Drag {
+    /// From the immersed areas at rest. `round` is a ball, `blunt` any closed shape.
+    pub(crate) fn estimate(w: &Waterline, mass: f32, density: f32, round: bool, blunt: bool) -> Self {
+        let q = 0.5 * density;
+        let (length, beam, draft) = (w.extent.x, w.extent.y, w.draft);
+        let plan = length * beam * if round { std::f32::consts::FRAC_PI_4 } else { 1.0 };
+        let (along, across, plate) = match (round, blunt) {
+            (true, _) => (SPHERE, SPHERE, SPHERE),
+            (_, true) => (BLUFF, BLUFF, PLATE),
+            _ => (POINTED, BLUFF, PLATE),
+        };
+        let cross = if blunt { 1.0 } else { PLANING };
+        let cubes = |width: f32, span: f32| width * span.powi(4) / 32.0;
+        let squares = |width: f32, span: f32| width * span.powi(3) / 12.0;
+        let skin = if round { 0.05 } else { 1.0 };
+        Self {
+            linear: Vec3::new(0.02, 0.05, 0.05) * mass,
+            quadratic: Vec3::new(along * w.profile.x, plate * plan, across * w.profile.y) * q,
+            cross_flow: Vec3::new(1.0, cross, 1.0),
+            angular_linear: Vec3::ZERO,
+            angular_quadratic: Vec3::new(
+                cubes(length, beam),
+                cubes(draft, length) + cubes(draft, beam),
+                cubes(beam, length),
+            ) * (q * skin),
+            angular_forward: Vec3::new(
+                PLANING * squares(length, beam),
+                squares(draft, length),
+                PLANING * squares(beam, length),
+            ) * (q * skin),
+            lateral_center: Vec3::new(w.lateral_center, w.center_of_buoyancy.y, w.center_of_buoyancy.z),
+        }
+    }
+
+    /// Decay rates times mass (N s/m) along the axes for the velocity `rel` through the water (hull axes).
+    pub(crate) fn rates(&self, rel: Vec3) -> Vec3 {
+        let all = rel.length_squared();
+        let speed = |own: f32, cross: f32| (own * own + cross * cross * (all - own * own).max(0.0)).sqrt();
+        let speeds = Vec3::new(
+            speed(rel.x, self.cross_flow.x),
+            speed(rel.y, self.cross_flow.y),
+            speed(rel.z, self.cross_flow.z),
+        );
+        self.linear + self.quadratic * speeds
+    }
+
+    /// The same about the axes (N m s), for the rotation `spin` and the speed through the water.
+    pub(crate) fn angular_rates(&self, spin: Vec3, speed: f32) -> Vec3 {
+        self.angular_linear + self.angular_quadratic * spin.abs() + self.angular_forward * speed
+    }
+}
+
+/// One implicit step of `m v' = -c v`: `v / (1 + dt c/m)`, which never overshoots, however stiff.
+pub(crate) fn implicit(v: Vec3, rate: Vec3, mass: Vec3, dt: f32) -> Vec3 {
+    v / (Vec3::ONE + rate / mass * dt)
+}

@@ -1,0 +1,1 @@
+//! Hull meshes from files.

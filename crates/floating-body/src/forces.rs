@@ -1,0 +1,157 @@
+//! The forces of Eq. 7 of the paper, one small function each, and the water they read.
+//!
+//! Moorings, contact and wind come in through `Controls::force`. There is no slamming and no planing lift.
+
+use glam::{Mat3, Vec2, Vec3};
+
+use crate::{ForcePoint, GRAVITY, SurfacePatch, SurfaceSample, WaterSurface};
+
+/// The water at a force point for the length of a tick: a plane through what was sampled.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LocalWater {
+    pub(crate) at: Vec2,
+    /// Without the body's own grid.
+    pub(crate) height: f32,
+    pub(crate) own: f32,
+    pub(crate) slope: Vec2,
+    pub(crate) velocity: Vec3,
+    pub(crate) acceleration: f32,
+    pub(crate) decay: f32,
+}
+
+/// Steepest slope that is believed; steeper water is breaking and no height field.
+const STEEPEST: f32 = 1.0;
+/// Fastest water that is believed, m/s.
+const FASTEST: f32 = 50.0;
+
+impl LocalWater {
+    /// Sampled numbers, made harmless: NaN becomes calm water.
+    fn new(at: Vec2, s: &SurfaceSample) -> Self {
+        let finite = s.height.is_finite() && s.own.is_finite() && s.velocity.is_finite();
+        if !(finite && s.normal.is_finite() && s.acceleration.is_finite() && s.decay_wavenumber.is_finite()) {
+            return Self { at, ..Self::default() };
+        }
+        let slope = Vec2::new(-s.normal.x, -s.normal.z) / s.normal.y.max(0.1);
+        Self {
+            at,
+            height: s.height.clamp(-1.0e4, 1.0e4),
+            own: s.own.clamp(-100.0, 100.0),
+            slope: slope.clamp_length_max(STEEPEST),
+            velocity: s.velocity.clamp_length_max(FASTEST),
+            acceleration: s.acceleration.clamp(-0.9 * GRAVITY, 3.0 * GRAVITY),
+            decay: s.decay_wavenumber.clamp(0.0, 100.0),
+        }
+    }
+
+    /// Height of the ambient surface at a point near by.
+    pub(crate) fn ambient(&self, point: Vec2) -> f32 {
+        self.height + self.slope.dot(point - self.at)
+    }
+}
+
+/// Fills `out` from one sample per point.
+pub(crate) fn read_points(
+    water: &dyn WaterSurface,
+    at: &[Vec2],
+    samples: &mut [SurfaceSample],
+    out: &mut [LocalWater],
+) {
+    water.sample(at, samples);
+    for ((p, s), o) in at.iter().zip(&*samples).zip(out) {
+        *o = LocalWater::new(*p, s);
+    }
+}
+
+/// Fills `out` from one patch about `center`.
+pub(crate) fn read_patch(water: &dyn WaterSurface, center: Vec2, radius: f32, at: &[Vec2], out: &mut [LocalWater]) {
+    let SurfacePatch { height, gradient, own, own_gradient, velocity, acceleration, decay_wavenumber } =
+        water.patch(center, radius);
+    let slope = gradient + own_gradient;
+    let normal = Vec3::new(-slope.x, 1.0, -slope.y).normalize_or(Vec3::Y);
+    let sample = SurfaceSample { height, own, normal, velocity, acceleration, decay_wavenumber };
+    let plane = LocalWater::new(center, &sample);
+    let gradient = if gradient.is_finite() { gradient.clamp_length_max(STEEPEST) } else { Vec2::ZERO };
+    for (p, o) in at.iter().zip(out) {
+        let away = *p - center;
+        let height = plane.height + gradient.dot(away);
+        *o = LocalWater { at: *p, height, own: plane.own + (plane.slope - gradient).dot(away), ..plane };
+    }
+}
+
+/// What the water does to all force points together.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Wetness {
+    /// Buoyancy in N and its torque about the centre of mass in N m, world axes.
+    pub(crate) force: Vec3,
+    pub(crate) torque: Vec3,
+    /// Immersed volume in m^3.
+    pub(crate) volume: f32,
+    /// Mean velocity and vertical acceleration of the water about the immersed volume.
+    pub(crate) velocity: Vec3,
+    pub(crate) acceleration: f32,
+    /// Rotation of that water about the centre of mass, rad/s, body axes.
+    pub(crate) spin: Vec3,
+}
+
+/// Where the body is within a tick.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pose {
+    pub(crate) position: Vec3,
+    pub(crate) rotation: Mat3,
+}
+
+/// Sums buoyancy and the water's motion over the force points (relative to the centre of mass, body axes).
+pub(crate) fn immerse(points: &[ForcePoint], waters: &[LocalWater], pose: &Pose, own: bool, density: f32) -> Wetness {
+    let mut w = Wetness::default();
+    let (mut turning, mut arm) = (Vec3::ZERO, Vec3::ZERO);
+    let up = pose.rotation.transpose();
+    for (p, water) in points.iter().zip(waters) {
+        let r = pose.rotation * p.position;
+        let at = pose.position + r;
+        let surface = water.ambient(Vec2::new(at.x, at.z)) + if own { water.own } else { 0.0 };
+        let gradient = Vec3::new(-water.slope.x, 1.0, -water.slope.y);
+        let depth = surface - at.y;
+        let i = p.immersion(depth, up * gradient.normalize());
+        if i.share <= 0.0 {
+            continue;
+        }
+        let (pull, fade) = buoyancy(i.share, i.extent, depth, water);
+        let direction = Vec3::new(gradient.x * fade, 1.0, gradient.z * fade) * (density * GRAVITY * p.volume);
+        w.force += direction * pull;
+        w.torque += r.cross(direction * pull) + (pose.rotation * i.moment).cross(direction * (pull / i.share));
+        let volume = p.volume * i.share;
+        w.volume += volume;
+        w.velocity += water.velocity * (volume * fade);
+        w.acceleration += water.acceleration * (volume * fade);
+        let flow = up * water.velocity;
+        turning += p.position.cross(flow) * volume;
+        arm += Vec3::splat(p.position.length_squared()) * volume - p.position * p.position * volume;
+    }
+    if w.volume > 0.0 {
+        w.velocity /= w.volume;
+        w.acceleration /= w.volume;
+        w.spin = (turning / arm.max(Vec3::splat(1.0e-6 * w.volume))).clamp_length_max(20.0);
+    }
+    w
+}
+
+/// Buoyancy of one piece as a share of `rho g V`, and the factor by which the wave's pressure has faded there.
+///
+/// Hydrostatic pressure acts along the surface normal, `rho g V (-dh/dx, 1, -dh/dz)` per immersed volume: bodies slide
+/// down a wave's face. A wave's pressure fades as `exp(-k d)`, so that the height `h` counts in full at the surface only:
+/// the difference between bottom and top is `rho g h (exp(-k d_top) - exp(-k d_bottom))` less than hydrostatic (linear
+/// wave theory).
+fn buoyancy(share: f32, extent: f32, depth: f32, water: &LocalWater) -> (f32, f32) {
+    let (top, bottom) = ((depth - extent).max(0.0), (depth + extent).max(0.0));
+    if water.decay * bottom < 1.0e-3 {
+        return (share, 1.0);
+    }
+    let (at_top, at_bottom) = (libm::expf(-water.decay * top), libm::expf(-water.decay * bottom));
+    let lost = water.height * (at_top - at_bottom) / (2.0 * extent);
+    ((share - lost).clamp(0.0, 1.5), 0.5 * (at_top + at_bottom))
+}
+
+/// Weight in N.
+pub(crate) fn gravity(mass: f32) -> Vec3 {
+    Vec3::new(0.0, -mass * GRAVITY, 0.0)
+}
