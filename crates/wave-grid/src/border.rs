@@ -43,6 +43,8 @@ impl Profile {
 pub(crate) struct Axis {
     /// Z at nodes.
     pub(crate) node: Vec<f32>,
+    /// R = 1/(1 + Z/2) at nodes.
+    pub(crate) node_gain: Vec<f32>,
     /// Z at edges.
     pub(crate) edge: Vec<f32>,
     /// R = 1/(1 + Z/2) at edges.
@@ -58,6 +60,7 @@ impl Axis {
         let edge: Vec<f32> = (0..=n).map(|i| profile.at(i as f32 - 0.5, n)).collect();
         let gain = edge.iter().map(|e| 1.0 / (1.0 + 0.5 * e)).collect();
         let keep = edge.iter().map(|e| (1.0 - 0.5 * e) / (1.0 + 0.5 * e)).collect();
-        Self { node, edge, gain, keep }
+        let node_gain = node.iter().map(|z| 1.0 / (1.0 + 0.5 * z)).collect();
+        Self { node, node_gain, edge, gain, keep }
     }
 }

@@ -4,6 +4,7 @@
 //! -(c/h)^2 lap z above [`ONSET`] g and decays with time constant [`DECAY`]. Only for looks.
 
 use crate::cpu::tiles::{Mode, Tiles};
+use crate::desc::TILE;
 use crate::state::State;
 
 /// Downward acceleration where foam begins, in g.
@@ -79,7 +80,7 @@ pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, law: FoamLaw) {
 type Span = std::ops::Range<usize>;
 
 fn tile_height(state: &State, x: Span, z: Span) -> f32 {
-    let mut most = [0.0f32; 16];
+    let mut most = [0.0f32; TILE];
     for j in z {
         let row = j * state.nx + x.start..j * state.nx + x.end;
         for array in [&state.z, &state.old] {
@@ -96,19 +97,30 @@ fn tile_foam(state: &mut State, x: Span, z: Span, law: FoamLaw) -> f32 {
     let State { nx, nz, old, foam, .. } = state;
     let (nx, nz) = (*nx, *nz);
     let (from, to) = (x.start.max(1), x.end.min(nx - 1));
-    let mut most = 0.0f32;
+    let mut most = [0.0f32; TILE];
     if from >= to {
-        return most;
+        return 0.0;
     }
     for j in z.start.max(1)..z.end.min(nz - 1) {
         let around = |row: usize| &old[row * nx + from - 1..row * nx + to + 1];
-        let (south, row, north) = (around(j - 1), around(j), around(j + 1));
-        for (i, f) in foam[j * nx + from..j * nx + to].iter_mut().enumerate() {
-            let lap = (row[i] + row[i + 2]) + (south[i + 1] + north[i + 1]) - 4.0 * row[i + 1];
-            let excess = (-lap * law.scale - law.onset).clamp(0.0, 1.0);
-            *f = (*f * law.keep + excess * law.growth).min(1.0);
-            most = most.max(*f);
-        }
+        let foam = &mut foam[j * nx + from..j * nx + to];
+        foam_row(foam, around(j - 1), around(j), around(j + 1), law, &mut most);
     }
-    most
+    most.into_iter().fold(0.0, f32::max)
+}
+
+/// At most 16 cells of one row; the rows around have one more cell at each end.
+#[inline(never)]
+fn foam_row(foam: &mut [f32], south: &[f32], row: &[f32], north: &[f32], law: FoamLaw, most: &mut [f32; TILE]) {
+    let n = foam.len().min(TILE);
+    let (west, centre, east) = (&row[..n], &row[1..n + 1], &row[2..n + 2]);
+    let (south, north, foam) = (&south[1..n + 1], &north[1..n + 1], &mut foam[..n]);
+    for i in 0..n {
+        let lap = ((west[i] - centre[i]) + (east[i] - centre[i])) + ((south[i] - centre[i]) + (north[i] - centre[i]));
+        let excess = (-lap * law.scale - law.onset).clamp(0.0, 1.0);
+        let f = foam[i] * law.keep + excess * law.growth;
+        let f = if f > 1.0 { 1.0 } else { f };
+        foam[i] = f;
+        most[i] = if f > most[i] { f } else { most[i] };
+    }
 }

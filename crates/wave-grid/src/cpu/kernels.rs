@@ -62,22 +62,23 @@ pub(crate) struct LayerRow<'a> {
     pub(crate) phi_x: &'a [f32],
     /// phi on the z-edges below and above this row, n each.
     pub(crate) phi_z: [&'a [f32]; 2],
-    /// Z at the nodes along x, n.
+    /// Z and R at the nodes along x, n.
     pub(crate) node: &'a [f32],
+    pub(crate) node_gain: &'a [f32],
     /// Z, R and A at the edges along x, n + 1.
     pub(crate) edge: &'a [f32],
     pub(crate) gain: &'a [f32],
     pub(crate) keep: &'a [f32],
-    /// Z at this row.
-    pub(crate) node_z: f32,
+    /// (Z, R) at this row.
+    pub(crate) node_z: [f32; 2],
     /// (Z, R, A) at the z-edges below and above.
     pub(crate) edge_z: [[f32; 3]; 2],
 }
 
 /// Border layer: phi is advanced on the four edges of each cell, its own two are stored (`phi_x`, `phi_z`, n each).
 ///
-/// z+ = z + [ dm (z - z_old) - Zi Zj z + div(a grad z) + div(phibar) ] / dp with dp, dm = 1 +- ((Zi + Zj)/2 + s) + Zi Zj/4,
-/// which is R R [2(1 - ZiZj/4) z + ...] - A A z_old arranged for small changes.
+/// z+ = z + R R/(1+s) [ (1-s)(1 - Zi/2)(1 - Zj/2)(z - z_old) - Zi Zj z + div(a grad z) + div(phibar) ], at s = 0
+/// R R [ 2(1 - Zi Zj/4) z + div(a grad z) + div(phibar) ] - A A z_old arranged for small changes.
 #[inline(never)]
 pub(crate) fn layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], r: &LayerRow, k: Coefficients) {
     let n = old.len();
@@ -87,11 +88,13 @@ pub(crate) fn layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], r
     let (north_west, north, north_east) = (&r.above[..n], &r.above[1..n + 1], &r.above[2..n + 2]);
     let (px0, px1) = (&r.phi_x[..n], &r.phi_x[1..n + 1]);
     let (pz0, pz1) = (&r.phi_z[0][..n], &r.phi_z[1][..n]);
-    let node = &r.node[..n];
+    let (node, node_gain) = (&r.node[..n], &r.node_gain[..n]);
     let (edge0, edge1) = (&r.edge[..n], &r.edge[1..n + 1]);
     let (gain0, gain1) = (&r.gain[..n], &r.gain[1..n + 1]);
     let (keep0, keep1) = (&r.keep[..n], &r.keep[1..n + 1]);
-    let zj = r.node_z;
+    let [zj, gain_z] = r.node_z;
+    let scale = gain_z / (1.0 + k.damping);
+    let rate = (1.0 - k.damping) * (1.0 - 0.5 * zj);
     let [[e_s, r_s, a_s], [e_n, r_n, a_n]] = r.edge_z;
     for i in 0..n {
         let z = centre[i];
@@ -107,11 +110,8 @@ pub(crate) fn layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], r
         let phi_n = a_n * pz1[i] + r_n * (node[i] - e_n) * flux_n;
         let plain = (flux_e - flux_w) + (flux_n - flux_s);
         let layer = ((phi_e + px1[i]) - (phi_w + px0[i])) + ((phi_n + pz1[i]) - (phi_s + pz0[i]));
-        let product = node[i] * zj;
-        let half = 0.5 * (node[i] + zj) + k.damping;
-        let base = 1.0 + 0.25 * product;
-        let change = (base - half) * (z - old[i]) - product * z + (plain + 0.5 * layer);
-        old[i] = flush(z + change / (base + half));
+        let still = rate * (1.0 - 0.5 * node[i]) * (z - old[i]) - node[i] * zj * z;
+        old[i] = flush(z + scale * node_gain[i] * (still + (plain + 0.5 * layer)));
         phi_x[i] = flush(phi_w);
         phi_z[i] = flush(phi_s);
     }

@@ -72,19 +72,19 @@ fn walk(band: Band, rows: std::ops::Range<usize>, grain: usize, shared: &Shared)
     let Band { first, old, phi_x, phi_z } = band;
     for tz in rows {
         let tiles = shared.tiles.row(tz);
-        for j in shared.tiles.span(1, tz) {
-            let at = (j - first) * shared.nx;
-            let row = at..at + shared.nx;
-            let mut tx = 0;
-            while tx < tiles.len() {
-                let run = tiles[tx..].iter().take_while(|t| t.mode == Mode::Active).count();
-                if run > 0 {
-                    let cells = shared.tiles.span(0, tx).start..shared.tiles.span(0, tx + run - 1).end;
-                    let (old, phi_x, phi_z) = (&mut old[row.clone()], &mut phi_x[row.clone()], &mut phi_z[row.clone()]);
-                    step_run(j, cells, old, phi_x, phi_z, shared);
+        let mut tx = 0;
+        while tx < tiles.len() {
+            let run = tiles[tx..].iter().take_while(|t| t.mode == Mode::Active).count();
+            if run > 0 {
+                let cells = shared.tiles.span(0, tx).start..shared.tiles.span(0, tx + run - 1).end;
+                for j in shared.tiles.span(1, tz) {
+                    let at = (j - first) * shared.nx;
+                    let row = at..at + shared.nx;
+                    let (old, phi_x, phi_z) = (&mut old[row.clone()], &mut phi_x[row.clone()], &mut phi_z[row]);
+                    step_run(j, cells.clone(), old, phi_x, phi_z, shared);
                 }
-                tx += run + 1;
             }
+            tx += run + 1;
         }
     }
 }
@@ -114,7 +114,9 @@ fn step_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut 
     if j <= w || j >= nz - 1 - w {
         layer(start, end, old);
     } else {
-        let (left, right) = (w + 1, nx - 1 - w);
+        // The strips are rounded up to whole vectors; where Z is zero, the layer is the interior.
+        let strip = w.next_multiple_of(4);
+        let (left, right) = (1 + strip, nx - 1 - strip);
         layer(start, end.min(left), old);
         layer(start.max(right), end, old);
         let (from, to) = (start.max(left), end.min(right));
@@ -144,10 +146,11 @@ fn layer_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut
         phi_x: &s.phi[0][j * nx + from..j * nx + to + 1],
         phi_z: [&s.phi[1][j * nx + from..j * nx + to], &s.phi[1][(j + 1) * nx + from..(j + 1) * nx + to]],
         node: &x.node[from..to],
+        node_gain: &x.node_gain[from..to],
         edge: &x.edge[from..to + 1],
         gain: &x.gain[from..to + 1],
         keep: &x.keep[from..to + 1],
-        node_z: z.node[j],
+        node_z: [z.node[j], z.node_gain[j]],
         edge_z: [[z.edge[j], z.gain[j], z.keep[j]], [z.edge[j + 1], z.gain[j + 1], z.keep[j + 1]]],
     };
     layer_row(&mut old[from..to], &mut phi_x[from..to], &mut phi_z[from..to], &row, s.coefficients);
