@@ -3,10 +3,13 @@
 pub mod dispersion;
 mod error;
 mod file;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod kernel;
 mod modes;
 mod ocean;
 mod pack;
+mod parameters;
 mod patch;
 mod query;
 mod random;
@@ -15,6 +18,7 @@ mod sea;
 mod shape;
 mod spectrum;
 mod synthesis;
+mod table;
 pub mod turns;
 
 pub use error::{Notice, OceanError};
