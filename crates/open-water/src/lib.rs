@@ -1,1 +1,57 @@
-//! Real-time open water for games: FFT ocean, interactive waves and floating bodies on wgpu.
+//! Real-time open water for games.
+//!
+//! [`OpenWater`] owns the ambient sea, the interactive grids and the bodies, and runs them on one clock. The host
+//! drives it: [`OpenWater::advance`] says which ticks are due, [`OpenWater::tick`] runs one, [`OpenWater::plan`] says
+//! what a frame will run on the GPU, [`OpenWater::encode`] records it into the host's encoder. Heights at any place are
+//! answered at once by [`OpenWater::sample`].
+//!
+//! ```
+//! use glam::{Vec2, Vec3};
+//! use open_water::{BodyDesc, BodyState, BodyStates, Hull, OpenWater, OpenWaterDesc};
+//!
+//! let mut water = OpenWater::headless(OpenWaterDesc::default())?;
+//! let crate_hull = Hull::cuboid(Vec3::splat(1.0))?;
+//! let id = water.add_body(BodyDesc::from_hull(&crate_hull, 400.0))?;
+//! let mut bodies = BodyStates::default();
+//! bodies.insert(id, BodyState::at_rest(Vec3::new(0.0, 2.0, 0.0)));
+//!
+//! for _frame in 0..120 {
+//!     for tick in water.advance(1.0 / 60.0) {
+//!         water.tick(tick, &mut bodies)?;
+//!     }
+//! }
+//! // The crate has fallen into the sea and floats.
+//! let crate_now = bodies.get(id).unwrap().position;
+//! let mut sea = [open_water::WaterSample::default()];
+//! water.sample(&[Vec2::new(crate_now.x, crate_now.z)], &mut sea);
+//! assert!((crate_now.y - sea[0].height).abs() < 1.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! It does not draw (see the crate `water-view`), collide bodies (a physics engine does), or make sounds.
+
+mod bodies;
+mod clock;
+mod cpu;
+mod desc;
+mod error;
+#[cfg(feature = "gpu")]
+mod gpu;
+mod grids;
+mod plan;
+mod store;
+mod water;
+
+pub use bodies::Pose;
+pub use clock::{Tick, Ticks};
+pub use cpu::surface::WaterSample;
+pub use desc::{Consumers, Follow, GridDesc, GridHome, OpenWaterDesc, Preset, View};
+pub use error::OpenWaterError;
+pub use grids::MAX_GRIDS;
+pub use plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
+pub use store::{BodyId, BodyStates, BodyStore, GridId};
+pub use water::{OpenWater, Reports};
+
+pub use floating_body::{Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, Inertia, Radiation, TriMesh};
+pub use ocean_spectrum::{CascadeDesc, Ocean, Partition, SeaState, Spectrum, Spreading};
+pub use wave_grid::{Scheme, WaveGrid};

@@ -1,0 +1,179 @@
+//! The bodies: their handles, and one tick of all of them.
+//!
+//! The hydrodynamics are `floating-body`'s. Here each body is given the water it sees, and what it displaced is handed
+//! to the grid it disturbs. Bodies do not see each other: collisions are the physics engine's.
+
+use floating_body::{Body, BodyState, Controls, Displacement};
+use glam::{Quat, Vec2, Vec3};
+use rayon::prelude::*;
+use slotmap::SlotMap;
+use wave_grid::Source;
+
+use crate::cpu::surface::{BodyWater, Composite};
+use crate::grids::Grids;
+use crate::store::{BodyId, BodyStore, GridId};
+use crate::{OpenWaterError, Reports};
+
+/// Bodies per task: a tick of a small body is well below a microsecond.
+const CHUNK: usize = 16;
+/// Change of position within a tick, on top of the body's own motion, that counts as a teleport, metres.
+const TELEPORT: f32 = 5.0;
+
+/// Where a hull's mesh is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Local position of the hull's own origin (not of the centre of mass), metres.
+    pub position: Vec3,
+    /// Attitude.
+    pub orientation: Quat,
+}
+
+impl Pose {
+    fn at(body: &Body, state: &BodyState) -> Self {
+        let position = state.position - state.orientation * body.desc().center_of_mass;
+        Self { position, orientation: state.orientation }
+    }
+
+    fn of(body: &Body) -> Self {
+        Self::at(body, &body.state())
+    }
+}
+
+pub(crate) struct Entry {
+    id: BodyId,
+    body: Body,
+    controls: Controls,
+    home: Option<GridId>,
+    /// Takes part in this tick.
+    active: bool,
+    previous: Option<Pose>,
+    displaced: Vec<Displacement>,
+}
+
+#[derive(Default)]
+pub(crate) struct Bodies {
+    index: SlotMap<BodyId, usize>,
+    list: Vec<Entry>,
+}
+
+impl Bodies {
+    pub(crate) fn insert(&mut self, body: Body) -> BodyId {
+        let id = self.index.insert(self.list.len());
+        self.list.push(Entry {
+            id,
+            body,
+            controls: Controls::default(),
+            home: None,
+            active: false,
+            previous: None,
+            displaced: Vec::new(),
+        });
+        id
+    }
+
+    pub(crate) fn remove(&mut self, id: BodyId) -> Result<(), OpenWaterError> {
+        let at = self.index.remove(id).ok_or(OpenWaterError::UnknownBody(id))?;
+        self.list.swap_remove(at);
+        if let Some(moved) = self.list.get(at) {
+            self.index[moved.id] = at;
+        }
+        Ok(())
+    }
+
+    fn get(&self, id: BodyId) -> Option<&Entry> {
+        self.index.get(id).map(|&at| &self.list[at])
+    }
+
+    pub(crate) fn body(&self, id: BodyId) -> Result<&Body, OpenWaterError> {
+        self.get(id).map(|entry| &entry.body).ok_or(OpenWaterError::UnknownBody(id))
+    }
+
+    pub(crate) fn set_controls(&mut self, id: BodyId, controls: Controls) -> Result<(), OpenWaterError> {
+        let at = *self.index.get(id).ok_or(OpenWaterError::UnknownBody(id))?;
+        self.list[at].controls = controls;
+        Ok(())
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    pub(crate) fn place_of(&self, id: BodyId) -> Option<Vec3> {
+        self.get(id).filter(|entry| entry.active).map(|entry| entry.body.state().position)
+    }
+
+    pub(crate) fn drawn(&self, id: BodyId, alpha: f32) -> Option<Pose> {
+        let entry = self.get(id).filter(|entry| entry.active)?;
+        let now = Pose::of(&entry.body);
+        let before = entry.previous.unwrap_or(now);
+        Some(Pose {
+            position: before.position.lerp(now.position, alpha),
+            orientation: before.orientation.slerp(now.orientation, alpha),
+        })
+    }
+
+    /// Takes over the store's states. Returns whether any body takes part in the tick.
+    pub(crate) fn read(&mut self, store: &dyn BodyStore, dt: f32, reports: &mut Reports) -> bool {
+        for entry in &mut self.list {
+            let Some(state) = store.read(entry.id) else {
+                entry.active = false;
+                entry.previous = None;
+                continue;
+            };
+            let last = entry.body.state();
+            let reach = TELEPORT + (last.velocity.length() + state.velocity.length()) * dt;
+            let teleported = !entry.active || state.position.distance(last.position) > reach;
+            if state != last {
+                entry.body.set_state(state);
+            }
+            if teleported {
+                entry.previous = None;
+                reports.teleports += u64::from(entry.active);
+            }
+            entry.active = true;
+        }
+        self.list.iter().any(|entry| entry.active)
+    }
+
+    /// Moves every active body by one tick and gathers what it displaced.
+    pub(crate) fn step(&mut self, dt: f32, ocean: Option<&ocean_spectrum::Ocean>, grids: &Grids) {
+        self.list.par_chunks_mut(CHUNK).for_each(|entries| {
+            for entry in entries.iter_mut().filter(|entry| entry.active) {
+                let before = entry.body.state();
+                entry.home = grids.home_of(entry.id, before.position);
+                let water = BodyWater {
+                    water: Composite { ocean, grids },
+                    home: entry.home,
+                    feels_home: entry.body.desc().radiation == floating_body::Radiation::Grid,
+                };
+                entry.body.step(dt, &water, &entry.controls);
+                entry.displaced.clear();
+                entry.body.displacements(&mut entry.displaced);
+                let jumped = entry.previous.is_none();
+                entry.previous = Some(if jumped { Pose::of(&entry.body) } else { Pose::at(&entry.body, &before) });
+            }
+        });
+    }
+
+    /// Hands what the bodies displaced to their home grids, in a fixed order.
+    pub(crate) fn disturb(&self, grids: &mut Grids) {
+        for entry in self.list.iter().filter(|entry| entry.active) {
+            let Some(grid) = entry.home.and_then(|home| grids.get_mut(home)) else { continue };
+            for d in &entry.displaced {
+                let center = Vec2::new(d.center.x, d.center.y);
+                if d.volume != 0.0 {
+                    grid.add(Source::Displacement { center, radius: d.radius, volume: d.volume });
+                }
+                if d.foam > 0.0 {
+                    grid.add(Source::Turbulence { center, radius: d.radius, foam: d.foam });
+                }
+            }
+        }
+    }
+
+    pub(crate) fn write(&self, store: &mut dyn BodyStore) {
+        for entry in self.list.iter().filter(|entry| entry.active) {
+            store.write(entry.id, entry.body.state());
+        }
+    }
+}

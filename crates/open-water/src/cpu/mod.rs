@@ -1,0 +1,3 @@
+//! CPU twins of the passes that this crate owns.
+
+pub(crate) mod surface;

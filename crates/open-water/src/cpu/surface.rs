@@ -1,0 +1,154 @@
+//! The composite surface on the CPU: the twin of `wgsl/shared/surface.wgsl`.
+//!
+//! Answers from the state after the last tick. Bodies see it through [`BodyWater`], which knows which grid is the
+//! body's own.
+
+use floating_body::{SurfacePatch, SurfaceSample, WaterSurface};
+use glam::{Vec2, Vec3};
+use ocean_spectrum::{Ocean, OceanSample};
+use wave_grid::GridSample;
+
+use crate::grids::{Grid, Grids};
+use crate::store::GridId;
+
+/// Points answered at a time, on the stack.
+const BATCH: usize = 32;
+
+/// The water at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaterSample {
+    /// Height, metres.
+    pub height: f32,
+    /// Unit normal, upwards.
+    pub normal: Vec3,
+    /// Velocity of the water at the surface, m/s.
+    pub velocity: Vec3,
+    /// Whether the surface folds over itself there, so that the answer is one of several.
+    pub folded: bool,
+}
+
+impl Default for WaterSample {
+    /// Calm water.
+    fn default() -> Self {
+        Self { height: 0.0, normal: Vec3::Y, velocity: Vec3::ZERO, folded: false }
+    }
+}
+
+/// What all waters are made of, as one state.
+pub(crate) struct Composite<'a> {
+    pub(crate) ocean: Option<&'a Ocean>,
+    pub(crate) grids: &'a Grids,
+}
+
+impl Composite<'_> {
+    fn ambient(&self, points: &[Vec2], out: &mut [OceanSample]) {
+        match self.ocean {
+            Some(ocean) => ocean.sample(points, out),
+            None => out.fill(OceanSample::default()),
+        }
+    }
+
+    /// The water at local positions (x, z); as many answers as the shorter slice holds.
+    pub(crate) fn surface_at(&self, points: &[Vec2], out: &mut [WaterSample]) {
+        for (points, out) in points.chunks(BATCH).zip(out.chunks_mut(BATCH)) {
+            let n = points.len().min(out.len());
+            let points = &points[..n];
+            let mut ambient = [OceanSample::default(); BATCH];
+            self.ambient(points, &mut ambient[..n]);
+            let mut sum = [GridSample::default(); BATCH];
+            for grid in self.grids.iter() {
+                add(grid, points, &mut sum[..n]);
+            }
+            for ((out, a), g) in out.iter_mut().zip(&ambient).zip(&sum[..n]) {
+                *out = WaterSample {
+                    height: a.height + g.height,
+                    normal: tilt(a.normal, g.slope),
+                    velocity: a.velocity + Vec3::Y * g.vertical_velocity,
+                    folded: a.folded,
+                };
+            }
+        }
+    }
+}
+
+fn add(grid: &Grid, points: &[Vec2], sum: &mut [GridSample]) {
+    let mut one = [GridSample::default(); BATCH];
+    let one = &mut one[..points.len()];
+    grid.sample(points, one);
+    for (sum, one) in sum.iter_mut().zip(one) {
+        sum.height += one.height;
+        sum.slope += one.slope;
+        sum.vertical_velocity += one.vertical_velocity;
+    }
+}
+
+/// Adds a slope to a surface with this normal.
+fn tilt(normal: Vec3, slope: Vec2) -> Vec3 {
+    if slope == Vec2::ZERO {
+        return normal;
+    }
+    let up = normal.y.max(1e-3);
+    Vec3::new(normal.x / up - slope.x, 1.0, normal.z / up - slope.y).normalize()
+}
+
+/// The water as one body sees it.
+pub(crate) struct BodyWater<'a> {
+    pub(crate) water: Composite<'a>,
+    /// The grid that the body disturbs.
+    pub(crate) home: Option<GridId>,
+    /// Whether the body's forces include its home grid's waves.
+    pub(crate) feels_home: bool,
+}
+
+impl BodyWater<'_> {
+    fn others_and_own(&self, points: &[Vec2], others: &mut [GridSample], own: &mut [GridSample]) {
+        for grid in self.water.grids.iter() {
+            let sum = if Some(grid.id) == self.home { &mut *own } else { &mut *others };
+            add(grid, points, sum);
+        }
+    }
+}
+
+impl WaterSurface for BodyWater<'_> {
+    fn sample(&self, points: &[Vec2], out: &mut [SurfaceSample]) {
+        for (points, out) in points.chunks(BATCH).zip(out.chunks_mut(BATCH)) {
+            let n = points.len().min(out.len());
+            let points = &points[..n];
+            let mut ambient = [OceanSample::default(); BATCH];
+            self.water.ambient(points, &mut ambient[..n]);
+            let mut others = [GridSample::default(); BATCH];
+            let mut own = [GridSample::default(); BATCH];
+            self.others_and_own(points, &mut others[..n], &mut own[..n]);
+            let k = self.water.ocean.map_or(0.0, Ocean::peak_wavenumber);
+            for (i, out) in out[..n].iter_mut().enumerate() {
+                let (a, g, o) = (&ambient[i], &others[i], &own[i]);
+                let felt = if self.feels_home { *o } else { GridSample::default() };
+                *out = SurfaceSample {
+                    height: a.height + g.height,
+                    own: o.height,
+                    normal: tilt(a.normal, g.slope + felt.slope),
+                    velocity: a.velocity + Vec3::Y * (g.vertical_velocity + felt.vertical_velocity),
+                    acceleration: a.vertical_acceleration,
+                    decay_wavenumber: k,
+                };
+            }
+        }
+    }
+
+    fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch {
+        let a = self.water.ocean.map_or_else(Default::default, |ocean| ocean.patch(center, radius));
+        let mut others = [GridSample::default()];
+        let mut own = [GridSample::default()];
+        self.others_and_own(&[center], &mut others, &mut own);
+        let felt = if self.feels_home { own[0].vertical_velocity } else { 0.0 };
+        SurfacePatch {
+            height: a.height + others[0].height,
+            gradient: a.gradient + others[0].slope,
+            own: own[0].height,
+            own_gradient: own[0].slope,
+            velocity: a.velocity + Vec3::Y * (others[0].vertical_velocity + felt),
+            acceleration: a.vertical_acceleration,
+            decay_wavenumber: a.decay_wavenumber,
+        }
+    }
+}

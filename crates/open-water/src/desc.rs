@@ -1,0 +1,197 @@
+//! Descriptions: what a water, a grid and a view are made from, and the presets.
+
+use floating_body::BodyDesc;
+use glam::{DVec2, Vec3};
+use ocean_spectrum::{CascadeDesc, OceanDesc, SeaState};
+use wave_grid::Scheme;
+
+use crate::{BodyId, OpenWaterError};
+
+/// Describes an [`OpenWater`](crate::OpenWater).
+#[derive(Debug, Clone)]
+pub struct OpenWaterDesc {
+    /// The ambient sea; without partitions it is flat calm and costs nothing.
+    pub sea: SeaState,
+    /// Chooses the phases of the waves: the same sea state and seed give the same sea everywhere.
+    pub seed: u64,
+    /// FFT tiles that make up the sea, 1 to 8, all of one size.
+    pub cascades: Vec<CascadeDesc>,
+    /// How far crests are sharpened, 0 to 1.
+    pub choppiness: f32,
+    /// Length of the fixed tick, seconds, 0.001 to 0.1.
+    pub tick: f32,
+    /// Most ticks that one frame may run, 1 to 64; what is due beyond them is dropped and reported.
+    pub max_ticks_per_frame: u32,
+}
+
+impl Default for OpenWaterDesc {
+    fn default() -> Self {
+        Preset::Medium.water()
+    }
+}
+
+impl OpenWaterDesc {
+    pub(crate) fn check(&self) -> Result<(), OpenWaterError> {
+        let invalid = |field, value, bound| Err(OpenWaterError::InvalidValue { field, value, bound });
+        if !(0.001..=0.1).contains(&self.tick) {
+            return invalid("tick", f64::from(self.tick), "0.001 to 0.1 s");
+        }
+        if !(1..=64).contains(&self.max_ticks_per_frame) {
+            return invalid("max_ticks_per_frame", f64::from(self.max_ticks_per_frame), "1 to 64");
+        }
+        Ok(())
+    }
+
+    pub(crate) fn ocean(&self) -> OceanDesc {
+        OceanDesc {
+            sea: self.sea.clone(),
+            seed: self.seed,
+            cascades: self.cascades.clone(),
+            choppiness: self.choppiness,
+            ..OceanDesc::default()
+        }
+    }
+}
+
+/// What a grid's window stays around.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Follow {
+    /// A body; the window stays where it is when the body is gone.
+    Body(BodyId),
+    /// A place in the world (x, z), metres.
+    Fixed(DVec2),
+}
+
+/// Where a grid is stepped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum GridHome {
+    /// On the CPU: bodies feel it at once, and what is drawn is what they feel.
+    #[default]
+    Cpu,
+    /// On the GPU, for looks and for large grids: the CPU's samples of it are some frames old
+    /// (see [`OpenWater::grid_age`](crate::OpenWater::grid_age)).
+    Gpu,
+}
+
+/// Describes an interactive grid.
+#[derive(Debug, Clone)]
+pub struct GridDesc {
+    /// What the window stays around.
+    pub follow: Follow,
+    /// Where it is stepped.
+    pub home: GridHome,
+    /// Cells along x and z.
+    pub cells: [u32; 2],
+    /// Cell size, metres.
+    pub cell_size: f32,
+    /// Speed of the waves, metres per second.
+    pub wave_speed: f32,
+    /// Interior scheme.
+    pub scheme: Scheme,
+    /// Width of the absorbing border, cells.
+    pub pml_width: u32,
+}
+
+impl Default for GridDesc {
+    fn default() -> Self {
+        Preset::Medium.grid()
+    }
+}
+
+impl GridDesc {
+    pub(crate) fn wave_grid(&self, tick: f32) -> wave_grid::GridDesc {
+        wave_grid::GridDesc {
+            cells: self.cells,
+            cell_size: self.cell_size,
+            wave_speed: self.wave_speed,
+            scheme: self.scheme,
+            pml_width: self.pml_width,
+            tick,
+            ..wave_grid::GridDesc::default()
+        }
+    }
+}
+
+/// Quality in one word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Preset {
+    /// Integrated graphics.
+    Low,
+    /// The default.
+    #[default]
+    Medium,
+    /// A strong GPU.
+    High,
+    /// The set-up of Yang et al. 2017: one FFT tile of 1024^2, the 5-point scheme on a moving grid of 512^2.
+    Paper,
+}
+
+impl Preset {
+    /// The water of this quality, with its default sea.
+    pub fn water(self) -> OpenWaterDesc {
+        let (size, tiles): (u32, &[f32]) = match self {
+            Self::Low => (128, &[485.0, 72.0, 10.8]),
+            Self::Medium => (256, &[485.0, 72.0, 10.8]),
+            Self::High => (512, &[901.0, 131.0, 17.3]),
+            Self::Paper => (1024, &[500.0]),
+        };
+        OpenWaterDesc {
+            sea: OceanDesc::default().sea,
+            seed: 1,
+            cascades: tiles.iter().map(|&tile| CascadeDesc { size, tile }).collect(),
+            choppiness: 1.0,
+            tick: 1.0 / 60.0,
+            max_ticks_per_frame: 8,
+        }
+    }
+
+    /// The grid of this quality that follows a boat. Its wave speed is the phase speed of waves about 25 m long; cell
+    /// size and speed keep the scheme near its stability bound, where its phase error is least.
+    pub fn grid(self) -> GridDesc {
+        let (cells, scheme, pml_width) = match self {
+            Self::Low => (256, Scheme::NinePoint, 8),
+            Self::Medium => (512, Scheme::NinePoint, 12),
+            Self::High => (768, Scheme::NinePoint, 16),
+            Self::Paper => (512, Scheme::FivePoint, 12),
+        };
+        // 5-point: a = (5.2/60/.125)^2 = .481 <= .49; 9-point: a = (6.2/60/.125)^2 = .683 <= .7.
+        let wave_speed = if scheme == Scheme::FivePoint { 5.2 } else { 6.2 };
+        GridDesc {
+            follow: Follow::Fixed(DVec2::ZERO),
+            home: GridHome::Cpu,
+            cells: [cells; 2],
+            cell_size: 0.125,
+            wave_speed,
+            scheme,
+            pml_width,
+        }
+    }
+
+    /// A boat of this quality: the paper's preset makes it pre-rigid.
+    pub fn body(self, desc: BodyDesc) -> BodyDesc {
+        match self {
+            Self::Paper => BodyDesc { inertia: floating_body::Inertia::PreRigid, ..desc },
+            _ => desc,
+        }
+    }
+}
+
+/// Who looks at the water: decides what is worth drawing, never what is simulated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// The eye's local position, metres.
+    pub eye: Vec3,
+    /// Angle that a pixel covers, radians.
+    pub pixel_angle: f32,
+}
+
+bitflags::bitflags! {
+    /// What reads the drawn surface beside its heights.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct Consumers: u32 {
+        /// Filtered displacement and normals (`surface_vertex`, `surface_shading`).
+        const NORMALS = 1;
+        /// Foam.
+        const FOAM = 2;
+    }
+}

@@ -1,0 +1,60 @@
+//! What can be wrong with a description or a call.
+
+use crate::{BodyId, GridId};
+
+/// Why the water refused a description or a call. Nothing is lost: the water stays as it was.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OpenWaterError {
+    /// A value is outside its range.
+    #[error("{field} is {value}, but must be {bound}")]
+    InvalidValue {
+        /// The field of the description.
+        field: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is allowed.
+        bound: &'static str,
+    },
+    /// The ambient sea was refused.
+    #[error(transparent)]
+    Ocean(#[from] ocean_spectrum::OceanError),
+    /// An interactive grid was refused.
+    #[error(transparent)]
+    Grid(#[from] wave_grid::GridError),
+    /// A body was refused.
+    #[error(transparent)]
+    Body(#[from] floating_body::BodyError),
+    /// The handle's body was removed, or is another water's.
+    #[error("body {0:?} does not exist (any more)")]
+    UnknownBody(BodyId),
+    /// The handle's grid was removed, or is another water's.
+    #[error("grid {0:?} does not exist (any more)")]
+    UnknownGrid(GridId),
+    /// Ticks must be run in the order in which `advance` gave them.
+    #[error("tick {found} was given, but tick {expected} is due: run the ticks of `advance` in order, each once")]
+    TickOutOfOrder {
+        /// The tick that is due.
+        expected: u64,
+        /// The tick that was given.
+        found: u64,
+    },
+    /// A grid homed on the GPU needs a water that was made with a device.
+    #[error("a grid with `GridHome::Gpu` needs a water made with `OpenWater::new`, this one is headless")]
+    NoGpu,
+    /// The device cannot do what the water needs.
+    #[cfg(feature = "gpu")]
+    #[error("the device's limit {limit} is {found}, but the water needs {needed}: ask for `OpenWater::required_limits()`")]
+    DeviceLimit {
+        /// Name of the limit in `wgpu::Limits`.
+        limit: &'static str,
+        /// What the device has.
+        found: u64,
+        /// What is needed.
+        needed: u64,
+    },
+    /// The GPU side of the ambient sea was refused.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    OceanGpu(#[from] ocean_spectrum::gpu::GpuError),
+}

@@ -1,0 +1,150 @@
+//! The composite surface's bind group: table, cascades, pool of drawn heights.
+
+use ocean_spectrum::Ocean;
+use ocean_spectrum::gpu::GpuOcean;
+use open_water_shaders::pipeline::bind_group;
+use open_water_shaders::surface::{self, HIDDEN_SLOPE_BIAS, SurfaceCascade, SurfaceGrid, SurfaceTable};
+
+use crate::grids::Grid;
+
+/// Looks repeat their time after this long, so that it stays exact in an f32, seconds.
+const LOOKS_TIME: f64 = 3600.0;
+
+pub(crate) struct SurfaceBinding {
+    layout: wgpu::BindGroupLayout,
+    table: wgpu::Buffer,
+    pool: wgpu::Buffer,
+    sampler: wgpu::Sampler,
+    /// Stands in for the cascades of a calm sea.
+    blank: wgpu::TextureView,
+    group: wgpu::BindGroup,
+}
+
+impl SurfaceBinding {
+    pub(crate) fn new(device: &wgpu::Device, ocean: Option<&GpuOcean>) -> Self {
+        let layout = surface::layout(device);
+        let table = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("surface_table"),
+            size: size_of::<SurfaceTable>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("looks_sampler"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
+        let blank = device
+            .create_texture(&wgpu::TextureDescriptor {
+                label: Some("calm_sea"),
+                size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::Rgba16Float,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            })
+            .create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..Default::default()
+            });
+        let pool = pool(device, 1);
+        let group = group(device, &layout, &table, &pool, &sampler, &blank, ocean);
+        Self { layout, table, pool, sampler, blank, group }
+    }
+
+    pub(crate) fn resize_pool(&mut self, device: &wgpu::Device, ocean: Option<&GpuOcean>, cells: u32) {
+        self.pool = pool(device, cells.max(1));
+        self.group = group(device, &self.layout, &self.table, &self.pool, &self.sampler, &self.blank, ocean);
+    }
+
+    pub(crate) fn group(&self) -> &wgpu::BindGroup {
+        &self.group
+    }
+
+    pub(crate) fn layout(&self) -> &wgpu::BindGroupLayout {
+        &self.layout
+    }
+
+    pub(crate) fn pool(&self) -> &wgpu::Buffer {
+        &self.pool
+    }
+
+    pub(crate) fn write_table<'a>(
+        &self,
+        queue: &wgpu::Queue,
+        time: f64,
+        ocean: Option<&Ocean>,
+        grids: impl Iterator<Item = &'a Grid>,
+    ) {
+        let mut table = SurfaceTable { time: (time % LOOKS_TIME) as f32, ..Default::default() };
+        if let Some(ocean) = ocean {
+            table.significant_height = ocean.significant_height();
+            for (i, slope) in table.hidden_slope.iter_mut().enumerate() {
+                *slope = ocean.hidden_slope((i as f32 - HIDDEN_SLOPE_BIAS as f32).exp2());
+            }
+            for (c, modes) in ocean.modes().iter().enumerate() {
+                let cascade =
+                    SurfaceCascade { offset: ocean.offset(c).into(), tile: modes.tile, size: modes.size as f32 };
+                table.cascades[c] = cascade;
+                table.cascade_count += 1;
+            }
+        }
+        for (entry, grid) in table.grids.iter_mut().zip(grids.filter(|grid| grid.shown)) {
+            let window = grid.window();
+            *entry = SurfaceGrid {
+                corner: window.local_corner(glam::DVec2::ZERO).into(),
+                cell_size: window.cell_size,
+                base: grid.base,
+                cells: window.cells,
+                pad: [0; 2],
+            };
+            table.grid_count += 1;
+        }
+        queue.write_buffer(&self.table, 0, bytemuck::bytes_of(&table));
+    }
+}
+
+fn pool(device: &wgpu::Device, cells: u32) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("surface_grids"),
+        size: u64::from(cells) * size_of::<[f32; 2]>() as u64,
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}
+
+fn group(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    table: &wgpu::Buffer,
+    pool: &wgpu::Buffer,
+    sampler: &wgpu::Sampler,
+    blank: &wgpu::TextureView,
+    ocean: Option<&GpuOcean>,
+) -> wgpu::BindGroup {
+    let views = match ocean {
+        Some(o) => [o.displacement(), o.derivative(), o.looks_displacement(), o.looks_derivative()],
+        None => [blank; 4],
+    };
+    let [displacement, derivative, looks_displacement, looks_derivative] = views.map(wgpu::BindingResource::TextureView);
+    bind_group(
+        device,
+        "surface",
+        layout,
+        &[
+            table.as_entire_binding(),
+            displacement,
+            derivative,
+            pool.as_entire_binding(),
+            looks_displacement,
+            looks_derivative,
+            wgpu::BindingResource::Sampler(sampler),
+        ],
+    )
+}

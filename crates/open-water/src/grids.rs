@@ -1,0 +1,171 @@
+//! The interactive grids: their handles, windows, homes and what they follow.
+//!
+//! Stepping is `wave-grid`'s; this decides around what a window stays and whose waves are whose.
+
+use glam::{DVec2, Vec2, Vec3};
+use slotmap::SlotMap;
+use wave_grid::{GridSample, Source, WaveGrid, Window};
+
+use crate::{Follow, GridDesc, GridHome, GridId, OpenWaterError};
+
+/// Most grids that a water may hold: all of them are drawn.
+pub const MAX_GRIDS: usize = open_water_shaders::surface::MAX_GRIDS;
+
+pub(crate) struct Grid {
+    pub(crate) id: GridId,
+    pub(crate) desc: GridDesc,
+    pub(crate) sim: Sim,
+    /// Place in the pool of drawn heights, elements.
+    pub(crate) base: u32,
+    /// What was drawn last is still shown and not yet zero.
+    pub(crate) shown: bool,
+}
+
+/// Where a grid's state is.
+pub(crate) enum Sim {
+    Cpu(WaveGrid),
+    #[cfg(feature = "gpu")]
+    Gpu(crate::gpu::grids::RemoteGrid),
+}
+
+impl Grid {
+    /// Adds nothing where the window is not.
+    pub(crate) fn sample(&self, points: &[Vec2], out: &mut [GridSample]) {
+        match &self.sim {
+            Sim::Cpu(grid) => grid.sample(points, out),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.sample(points, out),
+        }
+    }
+
+    pub(crate) fn window(&self) -> Window {
+        match &self.sim {
+            Sim::Cpu(grid) => grid.window(),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.window(),
+        }
+    }
+
+    fn center_on(&mut self, target: DVec2) {
+        match &mut self.sim {
+            Sim::Cpu(grid) => grid.center_on(target),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.center_on(target),
+        }
+    }
+
+    pub(crate) fn add(&mut self, source: Source) {
+        match &mut self.sim {
+            Sim::Cpu(grid) => {
+                grid.add(source);
+            }
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.add(source),
+        }
+    }
+
+    fn tick(&mut self) {
+        match &mut self.sim {
+            Sim::Cpu(grid) => grid.tick(),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.tick(),
+        }
+    }
+
+    pub(crate) fn cell_count(&self) -> u32 {
+        self.desc.cells[0] * self.desc.cells[1]
+    }
+
+    /// Whether a body at this place would disturb the grid inside its border layer.
+    fn covers(&self, place: Vec2) -> bool {
+        let window = self.window();
+        let at = window.cells_from_corner(place, DVec2::ZERO);
+        let rim = f64::from(self.desc.pml_width) + 4.0;
+        (0..2).all(|k| at[k] > rim && at[k] < f64::from(window.cells[k]) - rim)
+    }
+}
+
+/// All grids of a water, in the order in which they were added.
+#[derive(Default)]
+pub(crate) struct Grids {
+    ids: SlotMap<GridId, ()>,
+    list: Vec<Grid>,
+}
+
+impl Grids {
+    pub(crate) fn iter(&self) -> std::slice::Iter<'_, Grid> {
+        self.list.iter()
+    }
+
+    pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Grid> {
+        self.list.iter_mut()
+    }
+
+    pub(crate) fn get(&self, id: GridId) -> Result<&Grid, OpenWaterError> {
+        self.list.iter().find(|grid| grid.id == id).ok_or(OpenWaterError::UnknownGrid(id))
+    }
+
+    pub(crate) fn get_mut(&mut self, id: GridId) -> Option<&mut Grid> {
+        self.list.iter_mut().find(|grid| grid.id == id)
+    }
+
+    pub(crate) fn insert(&mut self, desc: GridDesc, sim: Sim) -> Result<GridId, OpenWaterError> {
+        if self.list.len() >= MAX_GRIDS {
+            let value = self.list.len() as f64 + 1.0;
+            return Err(OpenWaterError::InvalidValue { field: "grids", value, bound: "at most 32" });
+        }
+        let id = self.ids.insert(());
+        self.list.push(Grid { id, desc, sim, base: 0, shown: false });
+        self.place();
+        Ok(id)
+    }
+
+    pub(crate) fn remove(&mut self, id: GridId) -> Result<Grid, OpenWaterError> {
+        self.ids.remove(id).ok_or(OpenWaterError::UnknownGrid(id))?;
+        let at = self.list.iter().position(|grid| grid.id == id).ok_or(OpenWaterError::UnknownGrid(id))?;
+        let grid = self.list.remove(at);
+        self.place();
+        Ok(grid)
+    }
+
+    /// Gives every grid its place in the pool.
+    fn place(&mut self) {
+        let mut base = 0;
+        for grid in &mut self.list {
+            grid.base = base;
+            grid.shown = true;
+            base += grid.cell_count();
+        }
+    }
+
+    /// Cells of all grids.
+    pub(crate) fn pool_cells(&self) -> u32 {
+        self.list.iter().map(Grid::cell_count).sum()
+    }
+
+    /// The grid that a body disturbs: the one that follows it, else the finest that covers it; on the CPU if it can be.
+    pub(crate) fn home_of(&self, body: crate::BodyId, place: Vec3) -> Option<GridId> {
+        let place = Vec2::new(place.x, place.z);
+        let covering = self.list.iter().filter(|grid| grid.covers(place));
+        let rank = |grid: &Grid| {
+            let follows = grid.desc.follow == Follow::Body(body);
+            (!follows, grid.desc.home == GridHome::Gpu, grid.desc.cell_size)
+        };
+        let before = |a: &(bool, bool, f32), b: &(bool, bool, f32)| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
+        covering.map(|grid| (rank(grid), grid.id)).min_by(|a, b| before(&a.0, &b.0)).map(|(_, id)| id)
+    }
+
+    /// Moves the windows after what they follow and runs one tick of each.
+    pub(crate) fn tick(&mut self, place_of: impl Fn(crate::BodyId) -> Option<Vec3>) {
+        for grid in &mut self.list {
+            let target = match grid.desc.follow {
+                Follow::Fixed(place) => Some(place),
+                Follow::Body(body) => place_of(body).map(|p| DVec2::new(p.x.into(), p.z.into())),
+            };
+            if let Some(target) = target {
+                grid.center_on(target);
+            }
+            grid.tick();
+        }
+    }
+}

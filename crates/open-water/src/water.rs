@@ -1,0 +1,234 @@
+//! [`OpenWater`]: owns the sea, the grids, the bodies and the clock, and keeps them in step.
+
+use floating_body::{Body, BodyDesc, Controls};
+use glam::Vec2;
+use ocean_spectrum::Ocean;
+use wave_grid::WaveGrid;
+
+use crate::bodies::{Bodies, Pose};
+use crate::clock::{Clock, Tick, Ticks};
+use crate::cpu::surface::{Composite, WaterSample};
+use crate::desc::{GridDesc, GridHome, OpenWaterDesc};
+use crate::grids::{Grid, Grids, Sim};
+use crate::store::{BodyId, BodyStore, GridId};
+use crate::OpenWaterError;
+
+/// What went out of the ordinary since the start; nothing of it is an error.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Reports {
+    /// Ticks run.
+    pub ticks: u64,
+    /// Time dropped by frames that were too long, seconds.
+    pub dropped_secs: f64,
+    /// Bodies that the game moved too far in one tick to have gone there: their wake starts anew.
+    pub teleports: u64,
+}
+
+/// The water of a game: the ambient sea, the interactive grids and the bodies, on one clock.
+pub struct OpenWater {
+    pub(crate) desc: OpenWaterDesc,
+    pub(crate) clock: Clock,
+    /// The last tick run.
+    pub(crate) tick: u64,
+    /// None when the sea is calm.
+    pub(crate) ocean: Option<Ocean>,
+    pub(crate) grids: Grids,
+    pub(crate) bodies: Bodies,
+    pub(crate) reports: Reports,
+    #[cfg(feature = "gpu")]
+    pub(crate) gpu: Option<crate::gpu::Gpu>,
+}
+
+impl OpenWater {
+    /// A water without a GPU: for servers, tools and tests. Everything but drawing works.
+    ///
+    /// # Errors
+    /// A value of the description is out of its range.
+    pub fn headless(desc: OpenWaterDesc) -> Result<Self, OpenWaterError> {
+        desc.check()?;
+        let calm = desc.sea.partitions.is_empty();
+        let ocean = if calm { None } else { Some(Ocean::new(desc.ocean())?) };
+        Ok(Self {
+            clock: Clock::new(desc.tick, desc.max_ticks_per_frame),
+            tick: 0,
+            ocean,
+            grids: Grids::default(),
+            bodies: Bodies::default(),
+            reports: Reports::default(),
+            desc,
+            #[cfg(feature = "gpu")]
+            gpu: None,
+        })
+    }
+
+    /// A water whose surface is drawn on the host's device. Nothing is submitted here, and never will be.
+    ///
+    /// # Errors
+    /// As [`Self::headless`], or the device has less than [`Self::required_limits`].
+    #[cfg(feature = "gpu")]
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, desc: OpenWaterDesc) -> Result<Self, OpenWaterError> {
+        let mut water = Self::headless(desc)?;
+        water.gpu = Some(crate::gpu::Gpu::new(device, queue, water.ocean.as_ref())?);
+        Ok(water)
+    }
+
+    /// The description it was made from.
+    pub fn desc(&self) -> &OpenWaterDesc {
+        &self.desc
+    }
+
+    /// Adds a body. It takes part in ticks as long as the store has a state for it.
+    ///
+    /// # Errors
+    /// A value of the description is out of its range.
+    pub fn add_body(&mut self, desc: BodyDesc) -> Result<BodyId, OpenWaterError> {
+        Ok(self.bodies.insert(Body::new(desc)?))
+    }
+
+    /// Removes a body; a grid that followed it stays where it is.
+    ///
+    /// # Errors
+    /// There is no such body.
+    pub fn remove_body(&mut self, id: BodyId) -> Result<(), OpenWaterError> {
+        self.bodies.remove(id)
+    }
+
+    /// Sets a body's throttle and rudder for the ticks to come.
+    ///
+    /// # Errors
+    /// There is no such body.
+    pub fn set_controls(&mut self, id: BodyId, controls: Controls) -> Result<(), OpenWaterError> {
+        self.bodies.set_controls(id, controls)
+    }
+
+    /// A body as it stands after the last tick, for reading.
+    ///
+    /// # Errors
+    /// There is no such body.
+    pub fn body(&self, id: BodyId) -> Result<&Body, OpenWaterError> {
+        self.bodies.body(id)
+    }
+
+    /// Where a body is drawn: between its last two states, as far as `advance` left off. `None` for a body that took
+    /// no part in the last tick.
+    pub fn drawn_pose(&self, id: BodyId) -> Option<Pose> {
+        self.bodies.drawn(id, self.clock.alpha())
+    }
+
+    /// Adds an interactive grid.
+    ///
+    /// # Errors
+    /// A value of the description is out of its range or its scheme unstable; too many grids; a GPU home without a GPU.
+    pub fn add_grid(&mut self, desc: GridDesc) -> Result<GridId, OpenWaterError> {
+        let grid = desc.wave_grid(self.clock.dt());
+        let sim = match desc.home {
+            GridHome::Cpu => Sim::Cpu(WaveGrid::new(grid)?),
+            #[cfg(feature = "gpu")]
+            GridHome::Gpu => Sim::Gpu(self.gpu.as_mut().ok_or(OpenWaterError::NoGpu)?.remote.add(grid)?),
+            #[cfg(not(feature = "gpu"))]
+            GridHome::Gpu => return Err(OpenWaterError::NoGpu),
+        };
+        let id = self.grids.insert(desc, sim)?;
+        #[cfg(feature = "gpu")]
+        if let Some(gpu) = &mut self.gpu {
+            gpu.resize_pool(self.grids.pool_cells());
+        }
+        Ok(id)
+    }
+
+    /// Removes a grid and its waves.
+    ///
+    /// # Errors
+    /// There is no such grid.
+    pub fn remove_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
+        let removed = self.grids.remove(id)?;
+        #[cfg(feature = "gpu")]
+        if let (Some(gpu), Sim::Gpu(grid)) = (&mut self.gpu, removed.sim) {
+            gpu.release(grid);
+        }
+        #[cfg(not(feature = "gpu"))]
+        drop(removed);
+        Ok(())
+    }
+
+    /// The state of a CPU-homed grid after the last tick; `None` for a GPU-homed one.
+    ///
+    /// # Errors
+    /// There is no such grid.
+    pub fn grid(&self, id: GridId) -> Result<Option<&WaveGrid>, OpenWaterError> {
+        Ok(match &self.grids.get(id)?.sim {
+            Sim::Cpu(grid) => Some(grid),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(_) => None,
+        })
+    }
+
+    /// The ticks that are due `frame_dt` seconds after the last call; run each with [`Self::tick`]. More than
+    /// `max_ticks_per_frame` are dropped and reported; a time that is not positive counts as zero.
+    pub fn advance(&mut self, frame_dt: f32) -> Ticks {
+        let ticks = self.clock.advance(frame_dt);
+        self.reports.dropped_secs += ticks.dropped_secs;
+        ticks
+    }
+
+    /// Runs one tick: bodies feel the water and move, the water feels the bodies and moves. States are read from the
+    /// store before and written after.
+    ///
+    /// # Errors
+    /// [`OpenWaterError::TickOutOfOrder`]; then nothing was changed.
+    pub fn tick(&mut self, tick: Tick, store: &mut dyn BodyStore) -> Result<(), OpenWaterError> {
+        let expected = self.tick + 1;
+        if tick.index != expected {
+            return Err(OpenWaterError::TickOutOfOrder { expected, found: tick.index });
+        }
+        if self.bodies.read(store, tick.dt, &mut self.reports) {
+            self.bodies.step(tick.dt, self.ocean.as_ref(), &self.grids);
+            self.bodies.disturb(&mut self.grids);
+            self.bodies.write(store);
+        }
+        let bodies = &self.bodies;
+        self.grids.tick(|id| bodies.place_of(id));
+        self.tick = tick.index;
+        if let Some(ocean) = &mut self.ocean {
+            ocean.set_time(tick.time());
+        }
+        self.reports.ticks += 1;
+        Ok(())
+    }
+
+    /// The water at local positions (x, z) after the last tick, at once: as many answers as the shorter slice holds.
+    /// The horizontal displacement is inverted, all grids are included. Calm water for points that are not finite.
+    pub fn sample(&self, points: &[Vec2], out: &mut [WaterSample]) {
+        Composite { ocean: self.ocean.as_ref(), grids: &self.grids }.surface_at(points, out);
+    }
+
+    /// The ambient sea; `None` when it is calm.
+    pub fn ocean(&self) -> Option<&Ocean> {
+        self.ocean.as_ref()
+    }
+
+    /// Seconds since the start at the end of the last tick.
+    pub fn time(&self) -> f64 {
+        self.tick as f64 * f64::from(self.clock.dt())
+    }
+
+    /// Seconds since the start at the drawn moment, between the last two ticks.
+    pub fn drawn_time(&self) -> f64 {
+        let behind = f64::from(1.0 - self.clock.alpha()) * f64::from(self.clock.dt());
+        (self.time() - behind).max(0.0)
+    }
+
+    /// How many bodies there are.
+    pub fn body_count(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// What went out of the ordinary since the start.
+    pub fn reports(&self) -> Reports {
+        self.reports
+    }
+
+    pub(crate) fn grid_list(&self) -> impl Iterator<Item = &Grid> {
+        self.grids.iter()
+    }
+}
