@@ -1,4 +1,34 @@
 //! FFT ocean: sea state to spectrum to modes to surface, on the CPU and on wgpu.
+//!
+//! A sea is described in an oceanographer's words ([`SeaState`]), turned into modes (plane waves with fixed amplitudes,
+//! [`CascadeModes`]) on a few periodic tiles ([`OceanDesc`]), and known at one time, with height, normal and motion at
+//! any point ([`Ocean::sample`], [`Ocean::patch`]):
+//!
+//! ```
+//! use glam::Vec2;
+//! use ocean_spectrum::{Ocean, OceanDesc, OceanSample, SeaState};
+//!
+//! // 12 m/s of wind over 80 km of water, blowing towards +x.
+//! let desc = OceanDesc { sea: SeaState::wind(12.0, 80e3, 0.0), seed: 7, ..Default::default() };
+//! let mut ocean = Ocean::new(desc)?;
+//! assert!((ocean.significant_height() - 2.3).abs() < 0.1);
+//!
+//! ocean.set_time(2.5); // seconds
+//! let mut answers = [OceanSample::default(); 2];
+//! ocean.sample(&[Vec2::new(10.0, -4.0), Vec2::new(12.0, -4.0)], &mut answers);
+//! assert!(answers[0].height.abs() < 3.0 && answers[0].normal.y > 0.5);
+//! # Ok::<(), ocean_spectrum::OceanError>(())
+//! ```
+//!
+//! Conventions: y is up; metres, seconds, radians; waves travel towards their direction `(cos a, sin a)` in (x, z);
+//! arrays are row-major with x fastest, texel `(i, j)` at `(i, j) tile/size`. A point of calm water at `x` is seen at
+//! `x + D(x)`, with `D = -choppiness k/|k| a sin(theta)` for each wave `a cos(theta)`: crests get sharp.
+//!
+//! The seed, the tiles and the loop time decide the modes, with arithmetic that is the same on every machine; the sizes
+//! of the FFTs only decide how many of them are held. Feature `gpu` adds synthesis on wgpu from the same modes; without
+//! it the crate does not know wgpu.
+//!
+//! Not here: interactive waves, bodies, shores (the depth is one number), wave breaking, surface tension.
 
 pub mod dispersion;
 mod error;

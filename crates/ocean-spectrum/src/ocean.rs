@@ -160,7 +160,8 @@ impl Ocean {
     /// A time in seconds as a fraction of the loop, in 1/2^32; a mode's phase is `n.wrapping_mul(phase)` turns of
     /// 2^32. As exact at 10^7 s as at 0; 0 for a time that is not finite.
     pub fn phase_at(&self, t: f64) -> u32 {
-        let turns = (t / self.desc.loop_time).rem_euclid(1.0);
+        // The remainder is exact, however large the time.
+        let turns = t.rem_euclid(self.desc.loop_time) / self.desc.loop_time;
         // 2^32 itself, from rounding up, wraps to 0; a NaN casts to 0.
         libm::round(turns * 4_294_967_296.0) as u64 as u32
     }

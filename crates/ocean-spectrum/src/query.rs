@@ -15,6 +15,8 @@ const FIXED_ROUNDS: usize = 2;
 const NEWTON_ROUNDS: usize = 6;
 /// A residual that is good enough, metres.
 const TOLERANCE: f32 = 2e-4;
+/// Where the surface does not fold, some particle is nearer than this, metres.
+const LARGEST_RESIDUAL: f32 = 1e-3;
 /// Slopes are those of a surface that is compressed at most this much, so that they stay finite where it folds.
 const LEAST_JACOBIAN: f32 = 0.05;
 /// Farthest position that is answered, metres: f32 cannot tell places apart long before.
@@ -154,7 +156,7 @@ fn sample(layers: &[Layer], point: Vec2) -> OceanSample {
         vertical_acceleration: v[3],
         rest: found.rest,
         residual: found.residual,
-        folded: jacobian <= 0.0 || d[2] <= -1.0,
+        folded: jacobian <= 0.0 || d[2] <= -1.0 || found.residual > LARGEST_RESIDUAL,
     }
 }
 
