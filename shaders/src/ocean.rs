@@ -1,7 +1,8 @@
 //! Passes of the ocean: modes to fields to looks.
 //!
 //! A synthesis is two dispatches over all cascades and spectra: `ocean_rows` (the spectra at one time and their
-//! transforms along x) and `ocean_columns` (the transforms along z, into the textures).
+//! transforms along x) and `ocean_columns` (the transforms along z, into the textures). `ocean_looks` and `ocean_mips`
+//! make filtered half-float copies with foam, for what only looks.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -120,5 +121,27 @@ pub const COLUMNS: Pass = Pass {
     params: PARAMS,
 };
 
+/// Half-float looks with foam, mip levels 0 to 3.
+pub const LOOKS: Pass = Pass {
+    name: "ocean_looks",
+    constants: || format!("const OCEAN_CASCADES: u32 = {MAX_CASCADES}u;\n"),
+    parts: &[
+        include_str!("../wgsl/shared/ocean.wgsl"),
+        include_str!("../wgsl/shared/mips.wgsl"),
+        include_str!("../wgsl/ocean_looks.wgsl"),
+    ],
+    entry_points: &["ocean_looks"],
+    params: PARAMS,
+};
+
+/// Four more mip levels of the looks.
+pub const MIPS: Pass = Pass {
+    name: "ocean_mips",
+    constants: crate::no_constants,
+    parts: &[include_str!("../wgsl/shared/mips.wgsl"), include_str!("../wgsl/ocean_mips.wgsl")],
+    entry_points: &["ocean_mips"],
+    params: &[],
+};
+
 /// The passes of this area.
-pub const PASSES: &[Pass] = &[ROWS, COLUMNS];
+pub const PASSES: &[Pass] = &[ROWS, COLUMNS, LOOKS, MIPS];

@@ -61,19 +61,9 @@ impl Slot {
         match self {
             Slot::Uniform { size } => buffer(wgpu::BufferBindingType::Uniform, false, size),
             Slot::DynamicUniform { size } => buffer(wgpu::BufferBindingType::Uniform, true, size),
-            Slot::Read => buffer(
-                wgpu::BufferBindingType::Storage { read_only: true },
-                false,
-                0,
-            ),
-            Slot::ReadWrite => buffer(
-                wgpu::BufferBindingType::Storage { read_only: false },
-                false,
-                0,
-            ),
-            Slot::TextureArray { filterable } => {
-                texture(filterable, wgpu::TextureViewDimension::D2Array)
-            }
+            Slot::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }, false, 0),
+            Slot::ReadWrite => buffer(wgpu::BufferBindingType::Storage { read_only: false }, false, 0),
+            Slot::TextureArray { filterable } => texture(filterable, wgpu::TextureViewDimension::D2Array),
             Slot::Texture { filterable } => texture(filterable, wgpu::TextureViewDimension::D2),
             Slot::WriteTextureArray { format } => wgpu::BindingType::StorageTexture {
                 access: wgpu::StorageTextureAccess::WriteOnly,
@@ -94,17 +84,9 @@ pub fn group_layout(
 ) -> wgpu::BindGroupLayout {
     let entries: Vec<_> = (0..)
         .zip(slots)
-        .map(|(binding, slot)| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility,
-            ty: slot.ty(),
-            count: None,
-        })
+        .map(|(binding, slot)| wgpu::BindGroupLayoutEntry { binding, visibility, ty: slot.ty(), count: None })
         .collect();
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(label),
-        entries: &entries,
-    })
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
 }
 
 /// A bind group whose binding `i` is `resources[i]`.
@@ -116,16 +98,9 @@ pub fn bind_group(
 ) -> wgpu::BindGroup {
     let entries: Vec<_> = (0..)
         .zip(resources)
-        .map(|(binding, resource)| wgpu::BindGroupEntry {
-            binding,
-            resource: resource.clone(),
-        })
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
         .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some(label),
-        layout,
-        entries: &entries,
-    })
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
 }
 
 /// The shader module of a pass.
@@ -137,11 +112,7 @@ pub fn shader(device: &wgpu::Device, pass: &Pass) -> wgpu::ShaderModule {
 }
 
 /// A pipeline layout whose group `i` is `groups[i]`.
-pub fn pipeline_layout(
-    device: &wgpu::Device,
-    label: &str,
-    groups: &[&wgpu::BindGroupLayout],
-) -> wgpu::PipelineLayout {
+pub fn pipeline_layout(device: &wgpu::Device, label: &str, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
     let groups: Vec<_> = groups.iter().copied().map(Some).collect();
     device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(label),
@@ -167,10 +138,7 @@ pub fn compute_pipeline(
         layout: Some(&layout),
         module: &shader(device, pass),
         entry_point: Some(entry_point),
-        compilation_options: wgpu::PipelineCompilationOptions {
-            constants,
-            zero_initialize_workgroup_memory: false,
-        },
+        compilation_options: wgpu::PipelineCompilationOptions { constants, zero_initialize_workgroup_memory: false },
         cache: None,
     })
 }

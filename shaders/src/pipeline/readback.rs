@@ -39,9 +39,7 @@ impl Flight {
 impl Drop for Flight {
     fn drop(&mut self) {
         // Only a flight that did not land as READY is still IN_FLIGHT here.
-        let _ = self
-            .0
-            .compare_exchange(IN_FLIGHT, FREE, Ordering::AcqRel, Ordering::Acquire);
+        let _ = self.0.compare_exchange(IN_FLIGHT, FREE, Ordering::AcqRel, Ordering::Acquire);
     }
 }
 
@@ -74,13 +72,7 @@ impl<S: Copy + Default> Readback<S> {
                 stamp: S::default(),
             })
             .collect();
-        Self {
-            slots,
-            next_sequence: 1,
-            latest: Vec::with_capacity(size as usize),
-            latest_stamp: None,
-            dropped: 0,
-        }
+        Self { slots, next_sequence: 1, latest: Vec::with_capacity(size as usize), latest_stamp: None, dropped: 0 }
     }
 
     /// Encodes a copy of `bytes` bytes of `source` from `offset` on (both multiples of 4; cut to the ring's size).
@@ -93,10 +85,7 @@ impl<S: Copy + Default> Readback<S> {
         bytes: u64,
         stamp: S,
     ) -> bool {
-        let free = self
-            .slots
-            .iter_mut()
-            .find(|slot| slot.state.load(Ordering::Acquire) == FREE);
+        let free = self.slots.iter_mut().find(|slot| slot.state.load(Ordering::Acquire) == FREE);
         let Some(slot) = free else {
             self.dropped += 1;
             return false;
@@ -108,14 +97,9 @@ impl<S: Copy + Default> Readback<S> {
         slot.state.store(IN_FLIGHT, Ordering::Release);
         encoder.copy_buffer_to_buffer(source, offset, &slot.buffer, 0, slot.bytes);
         let flight = Flight(slot.state.clone());
-        encoder.map_buffer_on_submit(
-            &slot.buffer,
-            wgpu::MapMode::Read,
-            0..slot.bytes,
-            move |result| {
-                flight.land(result.is_ok());
-            },
-        );
+        encoder.map_buffer_on_submit(&slot.buffer, wgpu::MapMode::Read, 0..slot.bytes, move |result| {
+            flight.land(result.is_ok());
+        });
         true
     }
 
@@ -128,9 +112,7 @@ impl<S: Copy + Default> Readback<S> {
             if slot.state.load(Ordering::Acquire) != READY {
                 continue;
             }
-            if self
-                .latest_stamp
-                .is_none_or(|(sequence, _)| sequence < slot.sequence)
+            if self.latest_stamp.is_none_or(|(sequence, _)| sequence < slot.sequence)
                 && let Ok(view) = slot.buffer.get_mapped_range(0..slot.bytes)
             {
                 self.latest.clear();
@@ -145,10 +127,7 @@ impl<S: Copy + Default> Readback<S> {
 
     /// The newest bytes taken by [`Self::poll`] so far.
     pub fn latest(&self) -> Option<Reading<'_, S>> {
-        self.latest_stamp.map(|(_, stamp)| Reading {
-            stamp,
-            bytes: &self.latest,
-        })
+        self.latest_stamp.map(|(_, stamp)| Reading { stamp, bytes: &self.latest })
     }
 
     /// How many copies were dropped because every slot was in flight.

@@ -37,14 +37,13 @@ impl Context {
 
     /// Likewise with optional features (for measurements).
     pub(crate) fn with_features(features: wgpu::Features) -> Self {
-        let (device, queue) =
-            pollster::block_on(adapter().request_device(&wgpu::DeviceDescriptor {
-                label: Some("test"),
-                required_features: features,
-                required_limits: wgpu::Limits::default(),
-                ..Default::default()
-            }))
-            .expect("the adapter gives a device with default limits");
+        let (device, queue) = pollster::block_on(adapter().request_device(&wgpu::DeviceDescriptor {
+            label: Some("test"),
+            required_features: features,
+            required_limits: wgpu::Limits::default(),
+            ..Default::default()
+        }))
+        .expect("the adapter gives a device with default limits");
         let errors = Arc::new(Mutex::new(Vec::new()));
         let seen = errors.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
@@ -52,21 +51,12 @@ impl Context {
                 seen.push(error.to_string());
             }
         }));
-        Self {
-            device,
-            queue,
-            errors,
-        }
+        Self { device, queue, errors }
     }
 
     /// The errors so far, which count as looked at.
     pub(crate) fn take_errors(&self) -> Vec<String> {
-        std::mem::take(
-            &mut *self
-                .errors
-                .lock()
-                .expect("no test panics while holding this"),
-        )
+        std::mem::take(&mut *self.errors.lock().expect("no test panics while holding this"))
     }
 
     /// A storage buffer holding `data`, readable back.
@@ -95,31 +85,20 @@ impl Context {
 
     /// Waits for everything submitted.
     pub(crate) fn wait(&self) {
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .expect("the device finishes its work");
+        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device finishes its work");
     }
 
     /// The contents of a buffer.
     pub(crate) fn read<T: bytemuck::Pod>(&self, buffer: &wgpu::Buffer) -> Vec<T> {
         let mut ring = Readback::<()>::new(&self.device, "test", buffer.size(), 1);
         self.submit(|encoder| assert!(ring.encode(encoder, buffer, 0, buffer.size(), ())));
-        let reading = ring
-            .poll(&self.device)
-            .expect("the copy has come after waiting");
+        let reading = ring.poll(&self.device).expect("the copy has come after waiting");
         bytemuck::pod_collect_to_vec(reading.bytes)
     }
 
     /// The texels of one mip level of a texture, all layers, tightly packed.
-    pub(crate) fn read_texture<T: bytemuck::Pod>(
-        &self,
-        texture: &wgpu::Texture,
-        mip_level: u32,
-    ) -> Vec<T> {
-        let texel = texture
-            .format()
-            .block_copy_size(None)
-            .expect("a colour format");
+    pub(crate) fn read_texture<T: bytemuck::Pod>(&self, texture: &wgpu::Texture, mip_level: u32) -> Vec<T> {
+        let texel = texture.format().block_copy_size(None).expect("a colour format");
         let width = (texture.width() >> mip_level).max(1);
         let height = (texture.height() >> mip_level).max(1);
         let layers = texture.depth_or_array_layers();
@@ -141,21 +120,12 @@ impl Context {
                         rows_per_image: Some(height),
                     },
                 },
-                wgpu::Extent3d {
-                    width,
-                    height,
-                    depth_or_array_layers: layers,
-                },
+                wgpu::Extent3d { width, height, depth_or_array_layers: layers },
             );
         });
         let bytes: Vec<u8> = self.read(&buffer);
-        let rows = bytes
-            .chunks(pitch as usize)
-            .take((height * layers) as usize);
-        let tight: Vec<u8> = rows
-            .flat_map(|row| &row[..(width * texel) as usize])
-            .copied()
-            .collect();
+        let rows = bytes.chunks(pitch as usize).take((height * layers) as usize);
+        let tight: Vec<u8> = rows.flat_map(|row| &row[..(width * texel) as usize]).copied().collect();
         bytemuck::pod_collect_to_vec(&tight)
     }
 }
@@ -166,11 +136,7 @@ impl Drop for Context {
         let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
         let errors = self.take_errors();
         if !std::thread::panicking() {
-            assert!(
-                errors.is_empty(),
-                "the device reported errors:\n{}",
-                errors.join("\n")
-            );
+            assert!(errors.is_empty(), "the device reported errors:\n{}", errors.join("\n"));
         }
     }
 }

@@ -4,5 +4,6 @@
 //! command that sets one up.
 
 mod context;
+mod ocean_fields;
 mod readback;
 mod shaders;

@@ -14,10 +14,7 @@ fn newest_result_comes_with_its_stamp() {
         context.submit(|encoder| assert!(ring.encode(encoder, &source, 0, 8, tick)));
         let reading = ring.poll(&context.device).expect("waited for");
         assert_eq!(reading.stamp, tick);
-        assert_eq!(
-            bytemuck::pod_collect_to_vec::<u8, u32>(reading.bytes),
-            [tick as u32, 7]
-        );
+        assert_eq!(bytemuck::pod_collect_to_vec::<u8, u32>(reading.bytes), [tick as u32, 7]);
     }
     assert_eq!(ring.dropped(), 0);
 }
@@ -30,10 +27,7 @@ fn full_ring_drops_and_keeps_order() {
     context.submit(|encoder| {
         assert!(ring.encode(encoder, &sources[0], 0, 4, 1));
         assert!(ring.encode(encoder, &sources[1], 0, 4, 2));
-        assert!(
-            !ring.encode(encoder, &sources[2], 0, 4, 3),
-            "both slots are in flight"
-        );
+        assert!(!ring.encode(encoder, &sources[2], 0, 4, 3), "both slots are in flight");
     });
     let reading = ring.poll(&context.device).expect("waited for");
     assert_eq!((reading.stamp, reading.bytes), (2, &2u32.to_le_bytes()[..]));

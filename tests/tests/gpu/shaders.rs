@@ -19,14 +19,7 @@ fn resolve(pass: &Pass, module: &naga::Module, info: &naga::valid::ModuleInfo) -
         .overrides
         .iter()
         .filter(|(_, o)| o.init.is_none())
-        .map(|(_, o)| {
-            (
-                o.name
-                    .clone()
-                    .expect("an override without an id has a name"),
-                256.0,
-            )
-        })
+        .map(|(_, o)| (o.name.clone().expect("an override without an id has a name"), 256.0))
         .collect();
     naga::back::pipeline_constants::process_overrides(module, info, None, &constants)
         .unwrap_or_else(|error| panic!("{}: overrides: {error:?}", pass.name))
@@ -41,24 +34,14 @@ fn every_pass_is_valid_and_within_default_limits() {
         count += 1;
         let module = parse(pass);
         let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
-        let info = validator.validate(&module).unwrap_or_else(|error| {
-            panic!("{}: {}", pass.name, error.emit_to_string(&pass.source()))
-        });
+        let info = validator
+            .validate(&module)
+            .unwrap_or_else(|error| panic!("{}: {}", pass.name, error.emit_to_string(&pass.source())));
         let resolved = resolve(pass, &module, &info);
-        let resolved_info = validator
-            .validate(&resolved)
-            .expect("resolved module is valid");
+        let resolved_info = validator.validate(&resolved).expect("resolved module is valid");
 
-        let found: Vec<&str> = module
-            .entry_points
-            .iter()
-            .map(|entry| entry.name.as_str())
-            .collect();
-        assert!(
-            !pass.entry_points.is_empty(),
-            "{}: no entry points listed",
-            pass.name
-        );
+        let found: Vec<&str> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
+        assert!(!pass.entry_points.is_empty(), "{}: no entry points listed", pass.name);
         let mut expected = pass.entry_points.to_vec();
         let mut sorted = found.clone();
         expected.sort_unstable();
@@ -70,12 +53,7 @@ fn every_pass_is_valid_and_within_default_limits() {
                 continue;
             }
             let invocations: u32 = entry.workgroup_size.iter().product();
-            assert!(
-                invocations <= INVOCATIONS,
-                "{}: {} has {invocations} invocations",
-                pass.name,
-                entry.name
-            );
+            assert!(invocations <= INVOCATIONS, "{}: {} has {invocations} invocations", pass.name, entry.name);
             let usage = resolved_info.get_entry_point(index);
             let bytes: u32 = resolved
                 .global_variables
@@ -85,12 +63,7 @@ fn every_pass_is_valid_and_within_default_limits() {
                 })
                 .map(|(_, variable)| resolved.types[variable.ty].inner.size(resolved.to_ctx()))
                 .sum();
-            assert!(
-                bytes <= WORKGROUP_BYTES,
-                "{}: {} has {bytes} B of workgroup memory",
-                pass.name,
-                entry.name
-            );
+            assert!(bytes <= WORKGROUP_BYTES, "{}: {} has {bytes} B of workgroup memory", pass.name, entry.name);
         }
     }
     assert!(count > 0, "the list of passes is empty");
@@ -109,9 +82,7 @@ fn every_parameter_struct_has_the_same_layout_on_both_sides() {
                 .iter()
                 .find(|(_, ty)| ty.name.as_deref() == Some(layout.name))
                 .unwrap_or_else(|| panic!("{place}: not in the WGSL"));
-            let naga::TypeInner::Struct { members, span } = &ty.inner else {
-                panic!("{place}: not a struct")
-            };
+            let naga::TypeInner::Struct { members, span } = &ty.inner else { panic!("{place}: not a struct") };
             assert_eq!(*span as usize, layout.size, "{place}: size");
             let wgsl: Vec<(&str, usize)> = members
                 .iter()

@@ -39,8 +39,7 @@ fn divergence_variance(modes: &CascadeModes, choppiness: f64) -> f64 {
 /// What the shader knows of each cascade.
 pub(super) fn cascades(ocean: &Ocean) -> Vec<OceanCascade> {
     let choppiness = f64::from(ocean.desc().choppiness);
-    let variances: Vec<f64> =
-        ocean.modes().iter().map(|modes| divergence_variance(modes, choppiness)).collect();
+    let variances: Vec<f64> = ocean.modes().iter().map(|modes| divergence_variance(modes, choppiness)).collect();
     let total: f64 = variances.iter().sum();
     let spread = |variance: f64| (variance + SOFTNESS * SOFTNESS).sqrt();
     // Logistic in place of the normal distribution, as in the shader.

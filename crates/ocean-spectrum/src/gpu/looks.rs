@@ -30,16 +30,10 @@ pub(super) struct Looks {
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 impl Looks {
-    pub(super) fn new(
-        device: &wgpu::Device,
-        shape: Shape,
-        params: &wgpu::Buffer,
-        fields: &wgpu::Texture,
-    ) -> Self {
+    pub(super) fn new(device: &wgpu::Device, shape: Shape, params: &wgpu::Buffer, fields: &wgpu::Texture) -> Self {
         // Down to 2 x 2 texels: beyond, a cascade is faded out.
         let levels = shape.size.ilog2();
-        let (texture, [displacement, derivative]) =
-            upload::texture(device, "ocean looks", shape, FORMAT, levels);
+        let (texture, [displacement, derivative]) = upload::texture(device, "ocean looks", shape, FORMAT, levels);
         // wgpu clears new buffers: no foam at first.
         let foam = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("ocean foam"),
@@ -52,28 +46,15 @@ impl Looks {
         let uniform = Slot::Uniform { size: size_of::<OceanParams>() };
         let compute = wgpu::ShaderStages::COMPUTE;
 
-        let layout = group_layout(
-            device,
-            LOOKS.name,
-            compute,
-            &[uniform, read, Slot::ReadWrite, write, write, write, write],
-        );
+        let layout =
+            group_layout(device, LOOKS.name, compute, &[uniform, read, Slot::ReadWrite, write, write, write, write]);
         let all_fields = upload::level(fields, 0);
         let views: Vec<_> = (0..LEVELS_PER_DISPATCH).map(|l| upload::level(&texture, l)).collect();
-        let mut resources = vec![
-            params.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&all_fields),
-            foam.as_entire_binding(),
-        ];
+        let mut resources =
+            vec![params.as_entire_binding(), wgpu::BindingResource::TextureView(&all_fields), foam.as_entire_binding()];
         resources.extend(views.iter().map(wgpu::BindingResource::TextureView));
         let first = (
-            compute_pipeline(
-                device,
-                &LOOKS,
-                "ocean_looks",
-                &[&layout],
-                &[("N", f64::from(shape.size))],
-            ),
+            compute_pipeline(device, &LOOKS, "ocean_looks", &[&layout], &[("N", f64::from(shape.size))]),
             bind_group(device, LOOKS.name, &layout, &resources),
         );
 
@@ -96,23 +77,11 @@ impl Looks {
         let side = shape.size >> (level - 1);
         let views: Vec<_> = (0..=LEVELS_PER_DISPATCH)
             .map(|i| level - 1 + i)
-            .map(|l| {
-                if l < texture.mip_level_count() {
-                    upload::level(texture, l)
-                } else {
-                    unused(device, shape)
-                }
-            })
+            .map(|l| if l < texture.mip_level_count() { upload::level(texture, l) } else { unused(device, shape) })
             .collect();
         let resources: Vec<_> = views.iter().map(wgpu::BindingResource::TextureView).collect();
         Mips {
-            pipeline: compute_pipeline(
-                device,
-                &MIPS,
-                "ocean_mips",
-                &[layout],
-                &[("SIDE", f64::from(side))],
-            ),
+            pipeline: compute_pipeline(device, &MIPS, "ocean_mips", &[layout], &[("SIDE", f64::from(side))]),
             group: bind_group(device, MIPS.name, layout, &resources),
             side,
         }
@@ -125,8 +94,7 @@ impl Looks {
     pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>, shape: Shape) {
         let (pipeline, group) = &self.first;
         let stages = self.mips.iter().map(|mips| (&mips.pipeline, &mips.group, mips.side));
-        for (pipeline, group, side) in std::iter::once((pipeline, group, shape.size)).chain(stages)
-        {
+        for (pipeline, group, side) in std::iter::once((pipeline, group, shape.size)).chain(stages) {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, group, &[]);
             let blocks = side.div_ceil(BLOCK);

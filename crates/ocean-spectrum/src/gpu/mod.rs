@@ -41,12 +41,8 @@ impl GpuOcean {
         let shape = Shape::of(ocean)?;
         shape.check(&device.limits())?;
         let params = upload::params(ocean);
-        let params_buffer = upload::buffer(
-            device,
-            "ocean params",
-            bytemuck::bytes_of(&params),
-            wgpu::BufferUsages::UNIFORM,
-        );
+        let params_buffer =
+            upload::buffer(device, "ocean params", bytemuck::bytes_of(&params), wgpu::BufferUsages::UNIFORM);
         let synthesis = Synthesis::new(device, shape, ocean, &params_buffer);
         let looks = Looks::new(device, shape, &params_buffer, &synthesis.fields);
         Ok(Self { shape, params, params_buffer, synthesis, looks })
@@ -82,34 +78,19 @@ impl GpuOcean {
     }
 
     /// Fields and looks at `phase`, in one compute pass.
-    pub fn encode(
-        &mut self,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        phase: u32,
-        foam_dt: f32,
-    ) {
+    pub fn encode(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, phase: u32, foam_dt: f32) {
         self.set_time(queue, phase, foam_dt);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("ocean"),
-            timestamp_writes: None,
-        });
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("ocean"), timestamp_writes: None });
         self.record_fields(&mut pass);
         self.record_looks(&mut pass);
     }
 
     /// Fields alone at `phase`, in one compute pass: for when nothing looks at foam or filtered fields.
-    pub fn encode_fields(
-        &mut self,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        phase: u32,
-    ) {
+    pub fn encode_fields(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, phase: u32) {
         self.set_time(queue, phase, 0.0);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("ocean fields"),
-            timestamp_writes: None,
-        });
+        let mut pass = encoder
+            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("ocean fields"), timestamp_writes: None });
         self.record_fields(&mut pass);
     }
 

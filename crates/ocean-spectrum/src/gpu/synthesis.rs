@@ -29,15 +29,9 @@ fn turns(ocean: &Ocean) -> Vec<u32> {
 }
 
 impl Synthesis {
-    pub(super) fn new(
-        device: &wgpu::Device,
-        shape: Shape,
-        ocean: &Ocean,
-        params: &wgpu::Buffer,
-    ) -> Self {
+    pub(super) fn new(device: &wgpu::Device, shape: Shape, ocean: &Ocean, params: &wgpu::Buffer) -> Self {
         let storage = wgpu::BufferUsages::STORAGE;
-        let amplitudes =
-            upload::buffer(device, "ocean amplitudes", cast_slice(&amplitudes(ocean)), storage);
+        let amplitudes = upload::buffer(device, "ocean amplitudes", cast_slice(&amplitudes(ocean)), storage);
         let turns = upload::buffer(device, "ocean turns", cast_slice(&turns(ocean)), storage);
         let half_done = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("ocean half done"),
@@ -46,18 +40,12 @@ impl Synthesis {
             mapped_at_creation: false,
         });
         let format = wgpu::TextureFormat::Rgba32Float;
-        let (fields, [displacement, derivative]) =
-            upload::texture(device, "ocean fields", shape, format, 1);
+        let (fields, [displacement, derivative]) = upload::texture(device, "ocean fields", shape, format, 1);
 
         let compute = wgpu::ShaderStages::COMPUTE;
         let uniform = Slot::Uniform { size: size_of::<OceanParams>() };
         let constants = [("N", f64::from(shape.size))];
-        let layout = group_layout(
-            device,
-            ROWS.name,
-            compute,
-            &[uniform, Slot::Read, Slot::Read, Slot::ReadWrite],
-        );
+        let layout = group_layout(device, ROWS.name, compute, &[uniform, Slot::Read, Slot::Read, Slot::ReadWrite]);
         let rows = (
             compute_pipeline(device, &ROWS, "ocean_rows", &[&layout], &constants),
             bind_group(
@@ -72,12 +60,8 @@ impl Synthesis {
                 ],
             ),
         );
-        let layout = group_layout(
-            device,
-            COLUMNS.name,
-            compute,
-            &[uniform, Slot::Read, Slot::WriteTextureArray { format }],
-        );
+        let layout =
+            group_layout(device, COLUMNS.name, compute, &[uniform, Slot::Read, Slot::WriteTextureArray { format }]);
         let columns = (
             compute_pipeline(device, &COLUMNS, "ocean_columns", &[&layout], &constants),
             bind_group(

@@ -67,12 +67,7 @@ pub(super) fn params(ocean: &Ocean) -> OceanParams {
 }
 
 /// A buffer that holds `bytes`.
-pub(super) fn buffer(
-    device: &wgpu::Device,
-    label: &str,
-    bytes: &[u8],
-    usage: wgpu::BufferUsages,
-) -> wgpu::Buffer {
+pub(super) fn buffer(device: &wgpu::Device, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     use wgpu::util::DeviceExt;
     device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some(label),
@@ -91,11 +86,7 @@ pub(super) fn texture(
 ) -> (wgpu::Texture, [wgpu::TextureView; 2]) {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d {
-            width: shape.size,
-            height: shape.size,
-            depth_or_array_layers: shape.layers(),
-        },
+        size: wgpu::Extent3d { width: shape.size, height: shape.size, depth_or_array_layers: shape.layers() },
         mip_level_count,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,

@@ -1,0 +1,135 @@
+//! `ocean_rows` and `ocean_columns`: fields on the GPU against the direct sum in f64, the CPU's, and a naive transform.
+
+use glam::DVec2;
+use ocean_spectrum::gpu::{GpuError, GpuOcean};
+use ocean_spectrum::{CascadeDesc, Ocean, OceanDesc, reference};
+
+use crate::context::Context;
+
+const SENTINEL: f32 = -12_345.0;
+
+fn desc(size: u32, tiles: &[f32]) -> OceanDesc {
+    let cascades = tiles.iter().map(|&tile| CascadeDesc { size, tile }).collect();
+    OceanDesc { cascades, seed: 7, choppiness: 1.3, ..OceanDesc::default() }
+}
+
+/// Fills the fields with a sentinel, so that a texel not written shows.
+fn prefill(context: &Context, gpu: &GpuOcean) {
+    let texture = gpu.fields();
+    let texels = vec![[SENTINEL; 4]; (gpu.size() * gpu.size() * 2 * gpu.cascades()) as usize];
+    context.queue.write_texture(
+        texture.as_image_copy(),
+        bytemuck::cast_slice(&texels),
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(16 * gpu.size()),
+            rows_per_image: Some(gpu.size()),
+        },
+        texture.size(),
+    );
+}
+
+/// All layers of the fields at a phase.
+fn fields(context: &Context, gpu: &mut GpuOcean, phase: u32) -> Vec<Vec<[f32; 4]>> {
+    prefill(context, gpu);
+    context.submit(|encoder| gpu.encode_fields(&context.queue, encoder, phase));
+    let texels: Vec<[f32; 4]> = context.read_texture(gpu.fields(), 0);
+    let layers: Vec<_> = texels.chunks((gpu.size() * gpu.size()) as usize).map(<[_]>::to_vec).collect();
+    assert_eq!(layers.len(), 2 * gpu.cascades() as usize);
+    assert!(texels.iter().flatten().all(|&x| x != SENTINEL && x.is_finite()), "a texel was not written");
+    layers
+}
+
+/// Relative root mean square of each of the four channels.
+fn relative_rms(pairs: impl Iterator<Item = ([f32; 4], [f64; 4])>) -> [f64; 4] {
+    let mut error = [0.0; 4];
+    let mut power = [0.0; 4];
+    for (got, want) in pairs {
+        for i in 0..4 {
+            error[i] += (f64::from(got[i]) - want[i]).powi(2);
+            power[i] += want[i].powi(2);
+        }
+    }
+    std::array::from_fn(|i| (error[i] / power[i]).sqrt())
+}
+
+fn assert_below(errors: [f64; 4], bound: f64, what: &str) {
+    assert!(errors.iter().all(|&e| e <= bound), "{what}: relative RMS {errors:?} above {bound:e}");
+}
+
+#[test]
+fn fields_match_the_direct_sum_in_f64() {
+    let context = Context::new();
+    let ocean = Ocean::new(desc(64, &[300.0, 40.0])).expect("valid");
+    let mut gpu = GpuOcean::new(&context.device, &ocean).expect("fits");
+    // A time that 32 bits of a loop hold exactly, thousands of loops from the start.
+    let loop_time = ocean.desc().loop_time;
+    let t = loop_time * (3_000.0 + 123_457.0 / 1_048_576.0);
+    let layers = fields(&context, &mut gpu, ocean.phase_at(t));
+    for (c, modes) in ocean.modes().iter().enumerate() {
+        let texel = f64::from(modes.tile) / f64::from(modes.size);
+        let cells: Vec<usize> = (0..64 * 64).step_by(37).collect();
+        let want: Vec<_> = cells
+            .iter()
+            .map(|&cell| {
+                let x = DVec2::new((cell % 64) as f64, (cell / 64) as f64) * texel;
+                reference::direct_sum(modes, f64::from(ocean.desc().choppiness), loop_time, x, t)
+            })
+            .collect();
+        let at = |layer: usize| cells.iter().map(move |&cell| layer * 4096 + cell);
+        let all: Vec<[f32; 4]> = layers.iter().flatten().copied().collect();
+        let displacement = at(c).map(|i| all[i]).zip(want.iter().map(|w| w.displacement));
+        assert_below(relative_rms(displacement), 3e-6, "displacement");
+        let derivative = at(c + ocean.modes().len()).map(|i| all[i]).zip(want.iter().map(|w| w.derivative));
+        assert_below(relative_rms(derivative), 3e-6, "derivative");
+    }
+}
+
+#[test]
+fn fields_match_the_cpu_at_every_size() {
+    let context = Context::new();
+    for size in [16, 32, 64, 128, 256, 512, 1024] {
+        let tiles: &[f32] = if size <= 256 { &[300.0, 60.0, 9.0] } else { &[300.0] };
+        let mut ocean = Ocean::new(desc(size, tiles)).expect("valid");
+        let mut gpu = GpuOcean::new(&context.device, &ocean).expect("fits");
+        ocean.set_time(1_234.5);
+        let layers = fields(&context, &mut gpu, ocean.phase());
+        for c in 0..tiles.len() {
+            let want = ocean.fields(c);
+            for (layer, want) in [(c, want.displacement), (c + tiles.len(), want.derivative)] {
+                let pairs = layers[layer].iter().zip(want).map(|(&got, want)| (got, want.map(f64::from)));
+                assert_below(relative_rms(pairs), 3e-6, &format!("size {size}, layer {layer}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn reload_takes_a_changed_sea_and_refuses_another_shape() {
+    let context = Context::new();
+    let ocean = Ocean::new(desc(32, &[300.0])).expect("valid");
+    let mut gpu = GpuOcean::new(&context.device, &ocean).expect("fits");
+    let before = fields(&context, &mut gpu, 5 << 20);
+    let changed = Ocean::new(OceanDesc { seed: 8, choppiness: 0.5, ..desc(32, &[300.0]) }).expect("valid");
+    gpu.reload(&context.queue, &changed).expect("same shape");
+    let after = fields(&context, &mut gpu, 5 << 20);
+    assert_ne!(before, after);
+    let mut fresh = GpuOcean::new(&context.device, &changed).expect("fits");
+    assert_eq!(fields(&context, &mut fresh, 5 << 20), after);
+
+    let larger = Ocean::new(desc(64, &[300.0])).expect("valid");
+    let error = gpu.reload(&context.queue, &larger).expect_err("another size");
+    assert!(matches!(error, GpuError::InvalidValue { field: "size of a cascade", value: 64.0, limit: 32.0, .. }));
+}
+
+#[test]
+fn seas_that_do_not_fit_are_errors() {
+    let context = Context::new();
+    let mut mixed = desc(32, &[300.0, 40.0]);
+    mixed.cascades[1].size = 64;
+    let error = GpuOcean::new(&context.device, &Ocean::new(mixed).expect("valid")).expect_err("mixed sizes");
+    assert!(error.to_string().contains("size of a cascade is 64"), "{error}");
+    let large = Ocean::new(desc(1024, &[3_000.0, 600.0, 100.0, 9.0])).expect("valid");
+    let error = GpuOcean::new(&context.device, &large).expect_err("more than 128 MiB");
+    assert!(error.to_string().contains("half-done spectra"), "{error}");
+}
