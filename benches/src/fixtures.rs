@@ -1,6 +1,18 @@
 //! Inputs that cases and criterion benches share.
 
+use ocean_spectrum::{CascadeDesc, OceanDesc, SeaState};
 use wave_grid::{GridDesc, Scheme};
+
+/// Wind of the sea, m/s.
+pub const WIND: f32 = 10.0;
+/// Its fetch, m.
+pub const FETCH: f32 = 100e3;
+
+/// A wind sea on three cascades of one FFT size.
+pub fn ocean(size: u32) -> OceanDesc {
+    let cascades = [485.0, 72.4, 10.8].map(|tile| CascadeDesc { size, tile }).to_vec();
+    OceanDesc { sea: SeaState::wind(WIND, FETCH, 0.0), seed: 1, cascades, ..OceanDesc::default() }
+}
 
 /// The grid that follows the boat of the scene.
 pub fn grid() -> GridDesc {

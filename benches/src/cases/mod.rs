@@ -3,8 +3,19 @@
 mod grid_border;
 mod grid_phase;
 mod grid_step;
+mod ocean_fft;
+mod ocean_height;
 
 use crate::evidence::Case;
 
 /// Every case, in the order of the report.
-pub const CASES: &[Case] = &[grid_phase::PHASE, grid_border::PML, grid_border::SHIFT, grid_step::STEP];
+pub const CASES: &[Case] = &[
+    ocean_fft::CPU,
+    ocean_fft::VARIANCE,
+    ocean_height::HS,
+    ocean_height::QUERIES,
+    grid_phase::PHASE,
+    grid_border::PML,
+    grid_border::SHIFT,
+    grid_step::STEP,
+];

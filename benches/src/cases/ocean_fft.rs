@@ -1,0 +1,196 @@
+//! Cases `fft_cpu` (the cascades' fields against a direct sum) and `lost_variance` (what small FFTs leave out).
+
+use std::{hint::black_box, sync::Arc};
+
+use ocean_spectrum::{CascadeFields, Ocean, OceanDesc, Repro};
+use rayon::prelude::*;
+use rustfft::{Fft, FftPlanner, num_complex::Complex32};
+
+use crate::{
+    evidence::{Axis, Case, CaseError, Context, Plot, Row, measure, measure_together},
+    fixtures::{self, Random},
+    truth::{Fields, Jonswap, Waves},
+};
+
+/// See the module.
+pub(super) const CPU: Case = Case {
+    name: "fft_cpu",
+    about: "fields of the CPU synthesis against a direct sum in f64; plain rustfft beside it",
+    plots: &[Plot {
+        file: "fft_cpu",
+        title: "Synthesis of three cascades on the CPU",
+        x: Axis::Param("size"),
+        y: Axis::Time,
+        label: None,
+    }],
+    run: cpu,
+};
+
+/// See the module.
+pub(super) const VARIANCE: Case = Case {
+    name: "lost_variance",
+    about: "share of the sea's variance that the cascades do not hold, by FFT size",
+    plots: &[Plot {
+        file: "lost_variance",
+        title: "Variance left out against the time of a synthesis (beside the points: FFT size)",
+        x: Axis::Time,
+        y: Axis::Error,
+        label: Some("size"),
+    }],
+    run: variance,
+};
+
+/// Texels that are compared in each cascade.
+const TEXELS: usize = 64;
+/// Names of the fields in the order of [`Fields`].
+const NAMES: [&str; 12] =
+    ["Dx", "h", "Dz", "dDx/dz", "dh/dx", "dh/dz", "dDx/dx", "dDz/dz", "dDx/dt", "dh/dt", "dDz/dt", "d2h/dt2"];
+
+fn cpu(context: &Context) -> Result<Vec<Row>, CaseError> {
+    let mut rows = Vec::new();
+    for (variant, repro) in [("exact", Repro::Exact), ("fast", Repro::Fast)] {
+        for &size in context.pick(&[128, 256][..], &[64, 128, 256, 512, 1024]) {
+            let desc = OceanDesc { repro, ..fixtures::ocean(size) };
+            let mut ocean = Ocean::new(desc.clone())?;
+            let mut worst = (0.0f64, "");
+            for c in 0..desc.cascades.len() {
+                let errors = errors(&mut ocean, c);
+                for (error, name) in errors.into_iter().zip(NAMES) {
+                    if error > worst.0 || error.is_nan() {
+                        worst = (error, name);
+                    }
+                }
+            }
+            let mut time = 0.0;
+            let mut plain = Plain::new(size as usize, 6 * desc.cascades.len());
+            let [ours, theirs] = measure_together(
+                context.effort,
+                [
+                    &mut || {
+                        time += 1.0 / 60.0;
+                        ocean.set_time(black_box(time));
+                    },
+                    &mut || plain.run(),
+                ],
+            );
+            rows.push(
+                Row::new("fft_cpu", variant)
+                    .param("size", size)
+                    .param("cascades", desc.cascades.len())
+                    .param("worst_field", worst.1)
+                    .error(worst.0, "relative RMS", "direct sum in f64")
+                    .bound(1e-6)
+                    .time("twelve fields of every cascade at a new time", &ours)
+                    .baseline("rustfft alone on as many complex arrays, one a thread, rows and a transpose", &theirs),
+            );
+        }
+    }
+    Ok(rows)
+}
+
+/// Relative RMS error of each field of a cascade.
+fn errors(ocean: &mut Ocean, c: usize) -> Fields {
+    let loop_time = ocean.desc().loop_time;
+    // A dyadic part of the loop, so that the time itself is exact.
+    let time = loop_time * 0.314_453_125;
+    ocean.set_time(time);
+    let waves = Waves::of(&ocean.modes()[c..=c], ocean.desc().choppiness, loop_time);
+    compare(&ocean.fields(c), &waves, time)
+}
+
+/// Relative RMS error of each field over some texels.
+pub(super) fn compare(fields: &CascadeFields, waves: &Waves, time: f64) -> Fields {
+    let size = fields.size as usize;
+    let mut random = Random::new(11);
+    let texels: Vec<usize> = (0..TEXELS).map(|_| random.within(0.0, (size * size) as f64) as usize).collect();
+    let sums: Vec<[Fields; 2]> = texels
+        .par_iter()
+        .map(|&texel| {
+            let step = f64::from(fields.tile) / size as f64;
+            let truth = waves.at((texel % size) as f64 * step, (texel / size) as f64 * step, time);
+            let made = [fields.displacement[texel], fields.derivative[texel], fields.velocity[texel]];
+            let made: Fields = std::array::from_fn(|i| f64::from(made[i / 4][i % 4]));
+            [std::array::from_fn(|i| (made[i] - truth[i]).powi(2)), truth.map(|value| value * value)]
+        })
+        .collect();
+    std::array::from_fn(|i| {
+        let sum = |which: usize| sums.iter().map(|sums| sums[which][i]).sum::<f64>();
+        (sum(0) / sum(1)).sqrt()
+    })
+}
+
+fn variance(context: &Context) -> Result<Vec<Row>, CaseError> {
+    let truth = Jonswap::new(f64::from(fixtures::WIND), f64::from(fixtures::FETCH)).variance();
+    let mut rows = Vec::new();
+    for &size in context.pick(&[32, 64, 128, 256][..], &[32, 64, 128, 256, 512, 1024]) {
+        let mut ocean = Ocean::new(fixtures::ocean(size))?;
+        let lost = 100.0 * (1.0 - made_variance(&ocean) / truth);
+        let mut time = 0.0;
+        let timing = measure(context.effort, || {
+            time += 1.0 / 60.0;
+            ocean.set_time(black_box(time));
+        });
+        rows.push(
+            Row::new("lost_variance", "three cascades")
+                .param("size", size)
+                .error(lost.abs(), "%", "integral of the JONSWAP spectrum")
+                .time("twelve fields of every cascade at a new time", &timing),
+        );
+    }
+    Ok(rows)
+}
+
+/// Variance of the heights at the time held, m^2.
+pub(super) fn made_variance(ocean: &Ocean) -> f64 {
+    (0..ocean.modes().len())
+        .map(|c| {
+            let heights = ocean.fields(c).displacement;
+            heights.iter().map(|texel| f64::from(texel[1]).powi(2)).sum::<f64>() / heights.len() as f64
+        })
+        .sum()
+}
+
+/// The transforms alone, as one writes them with rustfft.
+struct Plain {
+    fft: Arc<dyn Fft<f32>>,
+    size: usize,
+    arrays: Vec<[Vec<Complex32>; 3]>,
+}
+
+impl Plain {
+    fn new(size: usize, count: usize) -> Self {
+        let fft = FftPlanner::new().plan_fft_inverse(size);
+        let mut random = Random::new(5);
+        let mut number = || random.within(-1.0, 1.0) as f32 / (size * size) as f32;
+        let arrays = (0..count)
+            .map(|_| {
+                let data = (0..size * size).map(|_| Complex32::new(number(), number())).collect();
+                let zeros = vec![Complex32::default(); size * size];
+                let scratch = vec![Complex32::default(); fft.get_inplace_scratch_len()];
+                [data, zeros, scratch]
+            })
+            .collect();
+        Self { fft, size, arrays }
+    }
+
+    fn run(&mut self) {
+        let (fft, size) = (&self.fft, self.size);
+        self.arrays.par_iter_mut().for_each(|[data, turned, scratch]| {
+            turned.copy_from_slice(data);
+            fft.process_with_scratch(turned, scratch);
+            // Columns become rows, 16 at a time to stay in the cache.
+            for block in (0..size).step_by(16) {
+                for j in 0..size {
+                    for i in block..(block + 16).min(size) {
+                        data[i * size + j] = turned[j * size + i];
+                    }
+                }
+            }
+            fft.process_with_scratch(data, scratch);
+            // Keeps the numbers from growing over the repeats.
+            let scale = 1.0 / size as f32;
+            data.iter_mut().for_each(|value| *value *= scale);
+            black_box(data);
+        });
+    }
+}
