@@ -44,7 +44,9 @@ pub enum OpenWaterError {
     NoGpu,
     /// The device cannot do what the water needs.
     #[cfg(feature = "gpu")]
-    #[error("the device's limit {limit} is {found}, but the water needs {needed}: ask for `OpenWater::required_limits()`")]
+    #[error(
+        "the device's limit {limit} is {found}, but the water needs {needed}: ask for `OpenWater::required_limits()`"
+    )]
     DeviceLimit {
         /// Name of the limit in `wgpu::Limits`.
         limit: &'static str,

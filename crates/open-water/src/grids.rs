@@ -17,13 +17,11 @@ pub(crate) struct Grid {
     pub(crate) sim: Sim,
     /// Place in the pool of drawn heights, elements.
     pub(crate) base: u32,
-    /// What was drawn last is still shown and not yet zero.
-    pub(crate) shown: bool,
 }
 
 /// Where a grid's state is.
 pub(crate) enum Sim {
-    Cpu(WaveGrid),
+    Cpu(Box<WaveGrid>),
     #[cfg(feature = "gpu")]
     Gpu(crate::gpu::grids::RemoteGrid),
 }
@@ -76,6 +74,20 @@ impl Grid {
         self.desc.cells[0] * self.desc.cells[1]
     }
 
+    /// Bytes of its drawn heights in the pool.
+    pub(crate) fn pool_bytes(&self) -> u64 {
+        u64::from(self.cell_count()) * size_of::<[f32; 2]>() as u64
+    }
+
+    /// Whether it has waves.
+    pub(crate) fn is_awake(&self) -> bool {
+        match &self.sim {
+            Sim::Cpu(grid) => !grid.is_asleep(),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.is_awake(),
+        }
+    }
+
     /// Whether a body at this place would disturb the grid inside its border layer.
     fn covers(&self, place: Vec2) -> bool {
         let window = self.window();
@@ -97,10 +109,6 @@ impl Grids {
         self.list.iter()
     }
 
-    pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Grid> {
-        self.list.iter_mut()
-    }
-
     pub(crate) fn get(&self, id: GridId) -> Result<&Grid, OpenWaterError> {
         self.list.iter().find(|grid| grid.id == id).ok_or(OpenWaterError::UnknownGrid(id))
     }
@@ -115,7 +123,7 @@ impl Grids {
             return Err(OpenWaterError::InvalidValue { field: "grids", value, bound: "at most 32" });
         }
         let id = self.ids.insert(());
-        self.list.push(Grid { id, desc, sim, base: 0, shown: false });
+        self.list.push(Grid { id, desc, sim, base: 0 });
         self.place();
         Ok(id)
     }
@@ -133,7 +141,6 @@ impl Grids {
         let mut base = 0;
         for grid in &mut self.list {
             grid.base = base;
-            grid.shown = true;
             base += grid.cell_count();
         }
     }
@@ -151,7 +158,8 @@ impl Grids {
             let follows = grid.desc.follow == Follow::Body(body);
             (!follows, grid.desc.home == GridHome::Gpu, grid.desc.cell_size)
         };
-        let before = |a: &(bool, bool, f32), b: &(bool, bool, f32)| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
+        let before =
+            |a: &(bool, bool, f32), b: &(bool, bool, f32)| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
         covering.map(|grid| (rank(grid), grid.id)).min_by(|a, b| before(&a.0, &b.0)).map(|(_, id)| id)
     }
 

@@ -39,6 +39,7 @@ mod error;
 mod gpu;
 mod grids;
 mod plan;
+mod planner;
 mod store;
 mod water;
 

@@ -93,6 +93,8 @@ pub enum SkippedWork {
 pub struct FramePlan {
     /// The drawn time, seconds since the start.
     pub time: f64,
+    /// The last tick run.
+    pub tick: u64,
     /// How far the drawn moment lies between the last two ticks.
     pub alpha: f32,
     /// What will run, in order.

@@ -5,13 +5,13 @@ use glam::Vec2;
 use ocean_spectrum::Ocean;
 use wave_grid::WaveGrid;
 
+use crate::OpenWaterError;
 use crate::bodies::{Bodies, Pose};
 use crate::clock::{Clock, Tick, Ticks};
 use crate::cpu::surface::{Composite, WaterSample};
 use crate::desc::{GridDesc, GridHome, OpenWaterDesc};
-use crate::grids::{Grid, Grids, Sim};
+use crate::grids::{Grids, Sim};
 use crate::store::{BodyId, BodyStore, GridId};
-use crate::OpenWaterError;
 
 /// What went out of the ordinary since the start; nothing of it is an error.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -122,7 +122,7 @@ impl OpenWater {
     pub fn add_grid(&mut self, desc: GridDesc) -> Result<GridId, OpenWaterError> {
         let grid = desc.wave_grid(self.clock.dt());
         let sim = match desc.home {
-            GridHome::Cpu => Sim::Cpu(WaveGrid::new(grid)?),
+            GridHome::Cpu => Sim::Cpu(Box::new(WaveGrid::new(grid)?)),
             #[cfg(feature = "gpu")]
             GridHome::Gpu => Sim::Gpu(self.gpu.as_mut().ok_or(OpenWaterError::NoGpu)?.remote.add(grid)?),
             #[cfg(not(feature = "gpu"))]
@@ -141,13 +141,11 @@ impl OpenWater {
     /// # Errors
     /// There is no such grid.
     pub fn remove_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
-        let removed = self.grids.remove(id)?;
+        self.grids.remove(id)?;
         #[cfg(feature = "gpu")]
-        if let (Some(gpu), Sim::Gpu(grid)) = (&mut self.gpu, removed.sim) {
-            gpu.release(grid);
+        if let Some(gpu) = &mut self.gpu {
+            gpu.resize_pool(self.grids.pool_cells());
         }
-        #[cfg(not(feature = "gpu"))]
-        drop(removed);
         Ok(())
     }
 
@@ -157,7 +155,7 @@ impl OpenWater {
     /// There is no such grid.
     pub fn grid(&self, id: GridId) -> Result<Option<&WaveGrid>, OpenWaterError> {
         Ok(match &self.grids.get(id)?.sim {
-            Sim::Cpu(grid) => Some(grid),
+            Sim::Cpu(grid) => Some(&**grid),
             #[cfg(feature = "gpu")]
             Sim::Gpu(_) => None,
         })
@@ -226,9 +224,5 @@ impl OpenWater {
     /// What went out of the ordinary since the start.
     pub fn reports(&self) -> Reports {
         self.reports
-    }
-
-    pub(crate) fn grid_list(&self) -> impl Iterator<Item = &Grid> {
-        self.grids.iter()
     }
 }

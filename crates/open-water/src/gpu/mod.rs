@@ -4,12 +4,14 @@
 
 mod encode;
 pub(crate) mod grids;
+mod host;
 mod surface;
 
 use ocean_spectrum::Ocean;
 use ocean_spectrum::gpu::GpuOcean;
 
 use crate::OpenWaterError;
+use crate::planner::Shown;
 use surface::SurfaceBinding;
 
 pub(crate) struct Gpu {
@@ -18,8 +20,9 @@ pub(crate) struct Gpu {
     ocean: Option<GpuOcean>,
     surface: SurfaceBinding,
     pub(crate) remote: grids::RemoteGrids,
-    /// Phase and tick of what the textures and the pool hold.
-    shown_phase: Option<u32>,
+    shown: Shown,
+    /// Time of the last looks, seconds: foam fades by the difference.
+    looks_time: f64,
     /// Drawn heights of one grid, before they are uploaded.
     scratch: Vec<[f32; 2]>,
 }
@@ -31,7 +34,7 @@ impl Gpu {
         ocean: Option<&Ocean>,
     ) -> Result<Self, OpenWaterError> {
         check_limits(&device.limits())?;
-        let gpu_ocean = ocean.map(|ocean| GpuOcean::new(device, queue, ocean)).transpose()?;
+        let gpu_ocean = ocean.map(|ocean| GpuOcean::new(device, ocean)).transpose()?;
         let surface = SurfaceBinding::new(device, gpu_ocean.as_ref());
         Ok(Self {
             device: device.clone(),
@@ -39,13 +42,19 @@ impl Gpu {
             ocean: gpu_ocean,
             surface,
             remote: grids::RemoteGrids::new(device),
-            shown_phase: None,
+            shown: Shown::default(),
+            looks_time: 0.0,
             scratch: Vec::new(),
         })
     }
 
     pub(crate) fn resize_pool(&mut self, cells: u32) {
+        self.shown.grids = None;
         self.surface.resize_pool(&self.device, self.ocean.as_ref(), cells);
+    }
+
+    pub(crate) fn shown(&self) -> Shown {
+        self.shown
     }
 
     pub(crate) fn surface(&self) -> &SurfaceBinding {

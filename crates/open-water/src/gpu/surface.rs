@@ -95,7 +95,7 @@ impl SurfaceBinding {
                 table.cascade_count += 1;
             }
         }
-        for (entry, grid) in table.grids.iter_mut().zip(grids.filter(|grid| grid.shown)) {
+        for (entry, grid) in table.grids.iter_mut().zip(grids.filter(|grid| grid.is_awake())) {
             let window = grid.window();
             *entry = SurfaceGrid {
                 corner: window.local_corner(glam::DVec2::ZERO).into(),
@@ -132,7 +132,8 @@ fn group(
         Some(o) => [o.displacement(), o.derivative(), o.looks_displacement(), o.looks_derivative()],
         None => [blank; 4],
     };
-    let [displacement, derivative, looks_displacement, looks_derivative] = views.map(wgpu::BindingResource::TextureView);
+    let [displacement, derivative, looks_displacement, looks_derivative] =
+        views.map(wgpu::BindingResource::TextureView);
     bind_group(
         device,
         "surface",
