@@ -1,6 +1,224 @@
-//! Passes of the grid.
+//! Passes of the grids: `grid_prepare` moves the window, remembers the last tick and adds sources, `grid_step` advances
+//! one sub-step, `grid_draw` writes what is drawn.
+//!
+//! A grid's cells stand on a torus: world cell c is stored at c mod torus, so a window that shifts copies nothing. All
+//! grids share two buffers, heights (z, z, previous, foam) and memory (phi_x, phi_x, phi_z, phi_z). All tiles of 16 x 16
+//! cells that are to be stepped stand in one list; a workgroup takes one tile, a thread four cells of a row.
 
-use crate::Pass;
+use bytemuck::{Pod, Zeroable};
+
+use crate::{Pass, param_layout};
+
+/// Cells along one side of a tile.
+pub const TILE: u32 = 16;
+/// Threads of a workgroup that steps a tile.
+pub const TILE_THREADS: u32 = TILE * TILE / 4;
+/// Most workgroups along x of a dispatch over tiles; more go to y.
+pub const TILES_PER_ROW: u32 = 32_768;
+/// Threads along x of `grid_draw`.
+pub const DRAW_THREADS: u32 = 64;
+/// Largest height in either direction that a source can reach, metres.
+pub const HEIGHT_LIMIT: f32 = 100.0;
+/// Values below this are set to zero: decaying waves must not reach denormals, which are many times slower.
+pub const TINY: f32 = 1e-20;
+/// Arrays of the heights buffer and of the memory buffer, per grid.
+pub const ARRAYS: u32 = 4;
+
+/// [`GridParams::moved`]: the window stands.
+pub const STOOD: u32 = 0;
+/// [`GridParams::moved`]: the window shifted.
+pub const SHIFTED: u32 = 1;
+/// [`GridParams::moved`]: nothing of the old window remains.
+pub const CLEARED: u32 = 2;
+
+/// A grid in one tick.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct GridParams {
+    /// Where the window's cell (0, 0) is stored.
+    pub corner: [u32; 2],
+    /// Cells of the window.
+    pub cells: [u32; 2],
+    /// Cells of the torus, multiples of 16.
+    pub torus: [u32; 2],
+    /// Shift of this tick: cell i held before what is now at i - shift.
+    pub shift: [i32; 2],
+    /// First `vec4` of the grid's arrays.
+    pub base: u32,
+    /// `vec4`s of one array.
+    pub stride: u32,
+    /// Which of the two levels holds the current state as the tick begins.
+    pub parity: u32,
+    /// Sub-steps of a tick.
+    pub substeps: u32,
+    /// [`STOOD`], [`SHIFTED`] or [`CLEARED`].
+    pub moved: u32,
+    /// Thickness W of the border layer, cells.
+    pub thickness: u32,
+    /// Exponent of its profile, 3 or 4.
+    pub exponent: u32,
+    /// Z at its outer edge.
+    pub peak: f32,
+    /// a w0 and a w1.
+    pub weights: [f32; 2],
+    /// sigma dt / 2.
+    pub damping: f32,
+    /// Foam: excess per metre of Laplacian.
+    pub foam_scale: f32,
+    /// Foam: where the excess begins.
+    pub foam_onset: f32,
+    /// Foam: growth in a tick.
+    pub foam_growth: f32,
+    /// Foam: factor left after a tick.
+    pub foam_keep: f32,
+    /// Padding.
+    pub pad: u32,
+}
+
+/// A tile to be stepped in one tick.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct GridTile {
+    /// Index of its [`GridParams`].
+    pub grid: u32,
+    /// Tile on the torus: column + 65536 row.
+    pub place: u32,
+    /// First of its sources.
+    pub first_source: u32,
+    /// How many.
+    pub source_count: u32,
+}
+
+/// A source as a tile sees it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct GridSource {
+    /// Centre, cells from the window's corner.
+    pub center: [f32; 2],
+    /// Where its rim begins, cells.
+    pub inner: f32,
+    /// Where it ends, cells.
+    pub outer: f32,
+    /// Height in the middle, metres.
+    pub height: f32,
+    /// Foam in the middle.
+    pub foam: f32,
+    /// Padding.
+    pub pad: [u32; 2],
+}
+
+/// What a dispatch over tiles covers.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct GridDispatch {
+    /// First tile of the list.
+    pub first: u32,
+    /// Number of tiles.
+    pub count: u32,
+    /// Sub-step within the tick.
+    pub substep: u32,
+    /// Padding.
+    pub pad: u32,
+}
+
+/// A grid to be drawn.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct GridDraw {
+    /// Where the window's cell (0, 0) is stored.
+    pub corner: [u32; 2],
+    /// Cells of the window.
+    pub cells: [u32; 2],
+    /// Cells of the torus.
+    pub torus: [u32; 2],
+    /// Middle of the fade, cells from the corner.
+    pub middle: [f32; 2],
+    /// Distance from the middle where the fade reaches zero, cells.
+    pub outer: [f32; 2],
+    /// Width of the fade, cells.
+    pub width: f32,
+    /// Between the tick before (0) and the last one (1).
+    pub alpha: f32,
+    /// First `f32` of the current heights.
+    pub now: u32,
+    /// First `f32` of the heights before.
+    pub previous: u32,
+    /// First `f32` of the foam.
+    pub foam: u32,
+    /// First element in the pool.
+    pub out: u32,
+}
+
+const PARAMS: &[crate::ParamLayout] = &[
+    param_layout!(GridParams {
+        corner,
+        cells,
+        torus,
+        shift,
+        base,
+        stride,
+        parity,
+        substeps,
+        moved,
+        thickness,
+        exponent,
+        peak,
+        weights,
+        damping,
+        foam_scale,
+        foam_onset,
+        foam_growth,
+        foam_keep,
+        pad
+    }),
+    param_layout!(GridTile { grid, place, first_source, source_count }),
+    param_layout!(GridSource { center, inner, outer, height, foam, pad }),
+    param_layout!(GridDispatch { first, count, substep, pad }),
+];
+
+const DRAW_PARAMS: &[crate::ParamLayout] =
+    &[param_layout!(GridDraw { corner, cells, torus, middle, outer, width, alpha, now, previous, foam, out })];
+
+fn constants() -> String {
+    format!(
+        "const TILE: u32 = {TILE}u;\nconst TILE_THREADS: u32 = {TILE_THREADS}u;\n\
+         const HEIGHT_LIMIT: f32 = {HEIGHT_LIMIT:?};\nconst TINY: f32 = {TINY:?};\n\
+         const SHIFTED: u32 = {SHIFTED}u;\nconst CLEARED: u32 = {CLEARED}u;\n"
+    )
+}
+
+fn draw_constants() -> String {
+    format!("const DRAW_THREADS: u32 = {DRAW_THREADS}u;\n")
+}
+
+const SHARED: &str = include_str!("../wgsl/shared/grid.wgsl");
+
+/// Moves the window, keeps the last tick's heights, adds sources.
+pub const PREPARE: Pass = Pass {
+    name: "grid_prepare",
+    constants,
+    parts: &[SHARED, include_str!("../wgsl/grid_prepare.wgsl")],
+    entry_points: &["grid_prepare"],
+    params: PARAMS,
+};
+
+/// One sub-step.
+pub const STEP: Pass = Pass {
+    name: "grid_step",
+    constants,
+    parts: &[SHARED, include_str!("../wgsl/grid_step.wgsl")],
+    entry_points: &["grid_step"],
+    params: PARAMS,
+};
+
+/// Height and foam as drawn.
+pub const DRAW: Pass = Pass {
+    name: "grid_draw",
+    constants: draw_constants,
+    parts: &[include_str!("../wgsl/grid_draw.wgsl")],
+    entry_points: &["grid_draw"],
+    params: DRAW_PARAMS,
+};
 
 /// The passes of this area.
-pub const PASSES: &[Pass] = &[];
+pub const PASSES: &[Pass] = &[PREPARE, STEP, DRAW];

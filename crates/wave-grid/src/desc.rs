@@ -5,7 +5,7 @@ use crate::GridError;
 /// Most sub-steps of a tick. A wave must not cross a tile within one tick.
 pub const MAX_SUBSTEPS: u32 = 16;
 /// Cells along one side of a tile.
-pub const TILE: usize = 16;
+pub const TILE: usize = open_water_shaders::grid::TILE as usize;
 
 /// How the Laplacian is discretised. Both are explicit, in flux form, second order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

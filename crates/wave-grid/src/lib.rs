@@ -26,6 +26,8 @@ mod border;
 mod cpu;
 mod desc;
 mod error;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod grid;
 mod measure;
 mod source;

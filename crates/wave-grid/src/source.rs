@@ -7,8 +7,8 @@ use glam::{DVec2, Vec2};
 
 use crate::Window;
 
-/// Largest height in either direction, metres: what a source or an imposed state may reach.
-pub const HEIGHT_LIMIT: f32 = 100.0;
+pub use open_water_shaders::grid::HEIGHT_LIMIT;
+
 /// Half the width of a disc's soft rim, cells.
 const SOFT: f64 = 1.5;
 

@@ -113,16 +113,21 @@ impl Place {
     /// Fade at each cell centre along one axis: 1 inside, 0 within three cells of the edge wherever the window leans.
     /// The fade of a cell is the product of both axes'.
     pub(crate) fn fade(&self, axis: usize, out: &mut [f32]) {
+        let [middle, outer] = self.fade_reach(axis);
         for (i, f) in out.iter_mut().enumerate() {
-            *f = fade_at(i as f64 + 0.5, self.window.cells[axis], self.lean[axis], self.pml_width);
+            let t = ((outer - (i as f64 + 0.5 - middle).abs()) / self.fade_width()).clamp(0.0, 1.0);
+            *f = (t * t * (3.0 - 2.0 * t)) as f32;
         }
     }
-}
 
-/// Fade `x` cells from the corner.
-fn fade_at(x: f64, cells: u32, lean: f64, pml_width: u32) -> f32 {
-    let half = f64::from(cells) / 2.0;
-    let outer = half - MARGIN - DEAD_BAND;
-    let t = ((outer - (x - half - lean).abs()) / f64::from(pml_width)).clamp(0.0, 1.0);
-    (t * t * (3.0 - 2.0 * t)) as f32
+    /// Middle of the fade (cells from the corner) and the distance from it where it reaches zero.
+    pub(crate) fn fade_reach(&self, axis: usize) -> [f64; 2] {
+        let half = f64::from(self.window.cells[axis]) / 2.0;
+        [half + self.lean[axis], half - MARGIN - DEAD_BAND]
+    }
+
+    /// Cells over which the fade rises.
+    pub(crate) fn fade_width(&self) -> f64 {
+        f64::from(self.pml_width)
+    }
 }

@@ -3,8 +3,7 @@
 //! Written as plain slices of equal length so that they compile to vector code without bounds checks. No fused
 //! multiply-add, so that every instruction set gives the same bits.
 
-/// Values below this are set to zero: decaying waves must not reach denormals, which are many times slower.
-pub(crate) const TINY: f32 = 1e-20;
+use open_water_shaders::grid::TINY;
 
 /// Coefficients of the scheme, dt folded in.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,0 +1,163 @@
+//! The buffers of the grids: state that stays, lists that are uploaded. They grow, and keep what they hold.
+
+use std::collections::VecDeque;
+
+use bytemuck::{NoUninit, Zeroable};
+use open_water_shaders::grid::{GridDispatch, GridDraw, GridParams};
+use open_water_shaders::pipeline::bind_group;
+
+use super::pack::{Packer, Tick};
+use super::pass::{DISPATCH_STRIDE, Passes};
+
+/// A buffer that is written anew and grows in powers of two.
+#[derive(Debug)]
+struct List {
+    label: &'static str,
+    usage: wgpu::BufferUsages,
+    buffer: wgpu::Buffer,
+}
+
+impl List {
+    fn new(device: &wgpu::Device, label: &'static str, usage: wgpu::BufferUsages, bytes: u64) -> Self {
+        Self { label, usage, buffer: create(device, label, usage | wgpu::BufferUsages::COPY_DST, bytes) }
+    }
+
+    /// Returns whether the buffer is another one now.
+    fn write<T: NoUninit>(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, data: &[T]) -> bool {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        let grown = bytes.len() as u64 > self.buffer.size();
+        if grown {
+            *self = Self::new(device, self.label, self.usage, (bytes.len() as u64).next_power_of_two());
+        }
+        queue.write_buffer(&self.buffer, 0, bytes);
+        grown
+    }
+}
+
+fn create(device: &wgpu::Device, label: &str, usage: wgpu::BufferUsages, size: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+}
+
+/// A dispatch's uniform with padding up to the next.
+type Slot = [GridDispatch; DISPATCH_STRIDE as usize / size_of::<GridDispatch>()];
+
+/// All buffers, and the bind groups made of them.
+#[derive(Debug)]
+pub(super) struct Buffers {
+    dispatches: List,
+    params: List,
+    tiles: List,
+    sources: List,
+    draws: List,
+    heights: wgpu::Buffer,
+    memory: wgpu::Buffer,
+    state_group: Option<wgpu::BindGroup>,
+    draw_group: Option<(wgpu::Buffer, wgpu::BindGroup)>,
+    /// The dispatches' uniforms as uploaded.
+    uniforms: Vec<Slot>,
+}
+
+const STATE_USAGE: wgpu::BufferUsages =
+    wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_SRC).union(wgpu::BufferUsages::COPY_DST);
+
+impl Buffers {
+    pub(super) fn new(device: &wgpu::Device) -> Self {
+        let list = |label, usage, bytes| List::new(device, label, usage, bytes);
+        let storage = wgpu::BufferUsages::STORAGE;
+        Self {
+            dispatches: list("grid dispatches", wgpu::BufferUsages::UNIFORM, 4096),
+            params: list("grid params", storage, size_of::<GridParams>() as u64),
+            tiles: list("grid tiles", storage, 4096),
+            sources: list("grid sources", storage, 4096),
+            draws: list("grid draws", storage, size_of::<GridDraw>() as u64),
+            heights: create(device, "grid heights", STATE_USAGE, 16),
+            memory: create(device, "grid memory", STATE_USAGE, 16),
+            state_group: None,
+            draw_group: None,
+            uniforms: Vec::new(),
+        }
+    }
+
+    /// Makes room for `vectors` of state. What is there stays; what is new is zero.
+    pub(super) fn reserve_state(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, vectors: u64) {
+        let bytes = 16 * vectors;
+        if bytes <= self.heights.size() {
+            return;
+        }
+        for (buffer, label) in [(&mut self.heights, "grid heights"), (&mut self.memory, "grid memory")] {
+            let larger = create(device, label, STATE_USAGE, bytes);
+            encoder.copy_buffer_to_buffer(buffer, 0, &larger, 0, buffer.size());
+            *buffer = larger;
+        }
+        self.state_group = None;
+        self.draw_group = None;
+    }
+
+    /// Uploads the queued ticks and forgets them in the packer.
+    pub(super) fn upload(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        passes: &Passes,
+        packer: &mut Packer,
+        ticks: &VecDeque<Tick>,
+    ) -> &wgpu::BindGroup {
+        self.uniforms.clear();
+        for tick in ticks {
+            let mut push = |count: u32, substep: u32| {
+                let mut slot = Slot::zeroed();
+                slot[0] = GridDispatch { first: tick.first, count, substep, pad: 0 };
+                self.uniforms.push(slot);
+            };
+            push(tick.tiles, 0);
+            for (substep, tiles) in (0..).zip(&tick.substeps) {
+                push(*tiles, substep);
+            }
+        }
+        let mut stale = self.dispatches.write(device, queue, &self.uniforms);
+        stale |= self.params.write(device, queue, &packer.params);
+        stale |= self.tiles.write(device, queue, &packer.tiles);
+        stale |= self.sources.write(device, queue, &packer.sources);
+        packer.clear();
+        if stale {
+            self.state_group = None;
+        }
+        self.state_group.get_or_insert_with(|| {
+            let one = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer: &self.dispatches.buffer,
+                offset: 0,
+                size: std::num::NonZeroU64::new(size_of::<GridDispatch>() as u64),
+            });
+            let resources = [
+                one,
+                self.params.buffer.as_entire_binding(),
+                self.tiles.buffer.as_entire_binding(),
+                self.sources.buffer.as_entire_binding(),
+                self.heights.as_entire_binding(),
+                self.memory.as_entire_binding(),
+            ];
+            bind_group(device, "grid state", &passes.state_layout, &resources)
+        })
+    }
+
+    /// Uploads what is to be drawn into `pool`.
+    pub(super) fn upload_draws(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        passes: &Passes,
+        pool: &wgpu::Buffer,
+        draws: &[GridDraw],
+    ) -> &wgpu::BindGroup {
+        let grown = self.draws.write(device, queue, draws);
+        if grown || self.draw_group.as_ref().is_some_and(|(bound, _)| bound != pool) {
+            self.draw_group = None;
+        }
+        let (_, group) = self.draw_group.get_or_insert_with(|| {
+            let resources =
+                [self.draws.buffer.as_entire_binding(), self.heights.as_entire_binding(), pool.as_entire_binding()];
+            (pool.clone(), bind_group(device, "grid draw", &passes.draw_layout, &resources))
+        });
+        group
+    }
+}

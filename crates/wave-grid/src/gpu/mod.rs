@@ -1,0 +1,299 @@
+//! Grids homed on the GPU: stepped there, drawn there, never read back here.
+//!
+//! All grids share two state buffers and one list of tiles, so a tick costs one dispatch that prepares and one for each
+//! sub-step, however many grids there are. A grid sleeps on the CPU's word alone: when nothing has disturbed it for
+//! longer than waves and foam last. Tiles of an awake grid are all stepped.
+
+mod buffers;
+mod pack;
+mod pass;
+
+use std::collections::VecDeque;
+
+use glam::DVec2;
+use open_water_shaders::grid::{self as shader, DRAW_THREADS, TILES_PER_ROW};
+
+use crate::border::Profile;
+use crate::cpu::foam::FoamLaw;
+use crate::source::Footprint;
+use crate::window::{Move, Place};
+use crate::{GridDesc, GridError, Source, Stepping, Window};
+
+use buffers::Buffers;
+use pack::Packer;
+use pass::Passes;
+
+/// Most grids.
+pub const MAX_GRIDS: usize = open_water_shaders::surface::MAX_GRIDS;
+/// Most bytes that all grids' heights may take: what WebGPU promises for one binding.
+const MAX_STATE_BYTES: u64 = 128 << 20;
+/// Most ticks queued between two calls of [`GpuGrids::encode`].
+pub const MAX_TICKS: usize = 64;
+
+/// Names a grid of a [`GpuGrids`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct GpuGridId(usize);
+
+/// What the CPU knows of a grid on the GPU.
+#[derive(Debug)]
+struct Grid {
+    desc: GridDesc,
+    stepping: Stepping,
+    place: Place,
+    law: FoamLaw,
+    moving: bool,
+    /// Cells of the torus.
+    torus: [usize; 2],
+    /// First `vec4` of its arrays.
+    base: u32,
+    parity: u32,
+    shift: [i64; 2],
+    clear: bool,
+    /// Sources for the next tick, and the corner of the window they were placed in.
+    sources: Vec<(Footprint, [i64; 2])>,
+    /// Ticks until it may sleep.
+    awake: u32,
+    dropped: u64,
+}
+
+/// Grids of interactive waves on the GPU.
+#[derive(Debug)]
+pub struct GpuGrids {
+    grids: Vec<Grid>,
+    origin: DVec2,
+    passes: Passes,
+    buffers: Buffers,
+    packer: Packer,
+    ticks: VecDeque<pack::Tick>,
+}
+
+impl GpuGrids {
+    /// No grids yet. Compiles the pipelines.
+    pub fn new(device: &wgpu::Device) -> Self {
+        let passes = Passes::new(device);
+        let buffers = Buffers::new(device);
+        Self {
+            grids: Vec::new(),
+            origin: DVec2::ZERO,
+            passes,
+            buffers,
+            packer: Packer::default(),
+            ticks: VecDeque::new(),
+        }
+    }
+
+    /// Adds a calm grid around the world's origin.
+    ///
+    /// # Errors
+    /// As [`crate::WaveGrid::new`], and when there are [`MAX_GRIDS`] already.
+    pub fn insert(&mut self, desc: GridDesc) -> Result<GpuGridId, GridError> {
+        let stepping = desc.stepping()?;
+        if self.grids.len() >= MAX_GRIDS {
+            return Err(GridError::InvalidValue {
+                field: "grids",
+                value: self.grids.len() as f64 + 1.0,
+                bound: "at most 32 grids",
+            });
+        }
+        let torus = desc.cells.map(|n| (n as usize).next_multiple_of(crate::TILE));
+        let base = self.state_vectors();
+        let bytes = 16 * (u64::from(base) + (torus[0] * torus[1]) as u64);
+        if bytes > MAX_STATE_BYTES {
+            let bound = "such that all grids together hold at most 8,388,608 cells";
+            return Err(GridError::InvalidValue { field: "cells", value: (torus[0] * torus[1]) as f64, bound });
+        }
+        self.grids.push(Grid {
+            place: Place::new(&desc),
+            law: FoamLaw::new(desc.wave_speed, desc.cell_size, desc.tick),
+            moving: false,
+            torus,
+            base,
+            parity: 0,
+            shift: [0; 2],
+            clear: false,
+            sources: Vec::new(),
+            awake: 0,
+            dropped: 0,
+            stepping,
+            desc,
+        });
+        Ok(GpuGridId(self.grids.len() - 1))
+    }
+
+    /// `vec4`s of the heights of all grids.
+    fn state_vectors(&self) -> u32 {
+        self.grids.last().map_or(0, |g| g.base + shader::ARRAYS * g.stride())
+    }
+
+    /// As [`crate::WaveGrid::center_on`], felt from the next tick on.
+    pub fn center_on(&mut self, id: GpuGridId, target: DVec2) {
+        let grid = &mut self.grids[id.0];
+        match grid.place.follow(target) {
+            Move::Stay => {}
+            Move::Shift(shift) => {
+                if grid.awake > 0 {
+                    grid.moving = true;
+                }
+                for (sum, by) in grid.shift.iter_mut().zip(shift) {
+                    *sum += by;
+                }
+            }
+            Move::Clear => {
+                grid.clear = true;
+                grid.moving = false;
+                grid.sources.clear();
+            }
+        }
+    }
+
+    /// As [`crate::WaveGrid::set_origin`], for all grids.
+    pub fn set_origin(&mut self, origin: DVec2) {
+        if origin.is_finite() {
+            self.origin = origin;
+        }
+    }
+
+    /// As [`crate::WaveGrid::add`].
+    pub fn add(&mut self, id: GpuGridId, source: Source) -> bool {
+        let origin = self.origin;
+        let grid = &mut self.grids[id.0];
+        let rim = grid.desc.pml_width as usize + 2;
+        let Some(footprint) = Footprint::new(source, &grid.place.window, origin, rim) else {
+            grid.dropped += 1;
+            return false;
+        };
+        grid.sources.push((footprint, grid.place.window.corner));
+        grid.awake = grid.rest_ticks();
+        true
+    }
+
+    /// Queues one tick of every awake grid. Returns whether it was queued: not when [`MAX_TICKS`] wait already.
+    pub fn tick(&mut self) -> bool {
+        if self.ticks.len() >= MAX_TICKS {
+            return false;
+        }
+        let tick = self.packer.pack(&mut self.grids);
+        if tick.tiles > 0 {
+            self.ticks.push_back(tick);
+        }
+        true
+    }
+
+    /// Dispatches that the next [`Self::encode`] will encode; zero when all grids sleep.
+    pub fn pending_dispatches(&self) -> usize {
+        self.ticks.iter().map(|tick| 1 + tick.substeps.len()).sum()
+    }
+
+    /// Encodes the queued ticks. Submit the encoder before encoding again.
+    pub fn encode(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) {
+        if self.ticks.is_empty() {
+            return;
+        }
+        self.buffers.reserve_state(device, encoder, u64::from(self.state_vectors()));
+        let state_group = self.buffers.upload(device, queue, &self.passes, &mut self.packer, &self.ticks);
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() });
+        let mut dispatch = 0;
+        let mut run = |pipeline: &wgpu::ComputePipeline, tiles: u32| {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, state_group, &[dispatch * pass::DISPATCH_STRIDE]);
+            pass.dispatch_workgroups(tiles.min(TILES_PER_ROW), tiles.div_ceil(TILES_PER_ROW), 1);
+            dispatch += 1;
+        };
+        for tick in self.ticks.drain(..) {
+            run(&self.passes.prepare, tick.tiles);
+            for tiles in tick.substeps {
+                run(&self.passes.step, tiles);
+            }
+        }
+    }
+
+    /// Encodes the drawing of grids as of the last encoded tick: (height, foam) of cell (i, j) goes to element
+    /// `base + j * nx + i` of `pool`, a storage buffer of `vec2<f32>`. `alpha` as in [`crate::WaveGrid::draw`]. Asleep
+    /// grids are drawn as zeros.
+    pub fn encode_draw(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        pool: &wgpu::Buffer,
+        draws: &[(GpuGridId, u32)],
+        alpha: f32,
+    ) {
+        if draws.is_empty() {
+            return;
+        }
+        let alpha = if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) };
+        self.buffers.reserve_state(device, encoder, u64::from(self.state_vectors()));
+        let draws: Vec<_> = draws.iter().take(MAX_GRIDS).map(|(id, out)| self.grids[id.0].drawn(alpha, *out)).collect();
+        let [x, y] = [0, 1].map(|k| draws.iter().map(|d| d.cells[k]).max().unwrap_or(0));
+        let draw_group = self.buffers.upload_draws(device, queue, &self.passes, pool, &draws);
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grid draw"), ..Default::default() });
+        pass.set_pipeline(&self.passes.draw);
+        pass.set_bind_group(0, draw_group, &[]);
+        pass.dispatch_workgroups(x.div_ceil(DRAW_THREADS), y, draws.len() as u32);
+    }
+
+    /// Where a grid's window stands.
+    pub fn window(&self, id: GpuGridId) -> Window {
+        self.grids[id.0].place.window
+    }
+
+    /// The description a grid was made from.
+    pub fn desc(&self, id: GpuGridId) -> &GridDesc {
+        &self.grids[id.0].desc
+    }
+
+    /// Whether a grid is calm and costs nothing.
+    pub fn is_asleep(&self, id: GpuGridId) -> bool {
+        self.grids[id.0].awake == 0
+    }
+
+    /// Sources of a grid dropped so far.
+    pub fn dropped_sources(&self, id: GpuGridId) -> u64 {
+        self.grids[id.0].dropped
+    }
+}
+
+impl Grid {
+    /// `vec4`s of one array.
+    fn stride(&self) -> u32 {
+        (self.torus[0] * self.torus[1] / 4) as u32
+    }
+
+    /// Ticks after which what a source did has left: waves need eight crossings, foam seven time constants.
+    fn rest_ticks(&self) -> u32 {
+        let [nx, nz] = self.desc.cells.map(|n| n as f32);
+        let crossing = (nx * nx + nz * nz).sqrt() * self.desc.cell_size / self.desc.wave_speed;
+        let seconds = (8.0 * crossing).max(7.0 * crate::cpu::foam::DECAY);
+        (seconds / self.desc.tick).min(u32::MAX as f32 / 2.0) as u32 + 1
+    }
+
+    fn profile(&self) -> Profile {
+        Profile::new(self.desc.pml_width, self.stepping.a, self.moving)
+    }
+
+    /// Where window cell (0, 0) is stored.
+    fn torus_corner(&self) -> [u32; 2] {
+        std::array::from_fn(|k| self.place.window.corner[k].rem_euclid(self.torus[k] as i64) as u32)
+    }
+
+    fn drawn(&self, alpha: f32, out: u32) -> shader::GridDraw {
+        let [x, z] = [self.place.fade_reach(0), self.place.fade_reach(1)];
+        let array = |k: u32| 4 * (self.base + k * self.stride());
+        shader::GridDraw {
+            corner: self.torus_corner(),
+            cells: self.desc.cells,
+            torus: self.torus.map(|n| n as u32),
+            middle: [x[0] as f32, z[0] as f32],
+            outer: [x[1] as f32, z[1] as f32],
+            width: self.place.fade_width() as f32,
+            alpha,
+            now: array(self.parity),
+            previous: array(2),
+            foam: array(3),
+            out,
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! The pipelines of the grid passes and their layouts.
+
+use open_water_shaders::grid::{self as shader, GridDispatch};
+use open_water_shaders::pipeline::{Slot, compute_pipeline, group_layout};
+
+/// Bytes between the dispatches' uniforms: WebGPU's alignment of dynamic offsets.
+pub(super) const DISPATCH_STRIDE: u32 = 256;
+
+/// Pipelines and layouts.
+#[derive(Debug)]
+pub(super) struct Passes {
+    pub(super) state_layout: wgpu::BindGroupLayout,
+    pub(super) draw_layout: wgpu::BindGroupLayout,
+    pub(super) prepare: wgpu::ComputePipeline,
+    pub(super) step: wgpu::ComputePipeline,
+    pub(super) draw: wgpu::ComputePipeline,
+}
+
+impl Passes {
+    pub(super) fn new(device: &wgpu::Device) -> Self {
+        let compute = wgpu::ShaderStages::COMPUTE;
+        let uniform = Slot::DynamicUniform { size: size_of::<GridDispatch>() };
+        let state = [uniform, Slot::Read, Slot::Read, Slot::Read, Slot::ReadWrite, Slot::ReadWrite];
+        let state_layout = group_layout(device, "grid state", compute, &state);
+        let draw_layout = group_layout(device, "grid draw", compute, &[Slot::Read, Slot::Read, Slot::ReadWrite]);
+        let pipeline = |pass: &open_water_shaders::Pass, layout: &wgpu::BindGroupLayout| {
+            compute_pipeline(device, pass, pass.name, &[layout], &[])
+        };
+        Self {
+            prepare: pipeline(&shader::PREPARE, &state_layout),
+            step: pipeline(&shader::STEP, &state_layout),
+            draw: pipeline(&shader::DRAW, &draw_layout),
+            state_layout,
+            draw_layout,
+        }
+    }
+}

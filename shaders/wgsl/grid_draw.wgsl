@@ -1,0 +1,38 @@
+struct GridDraw {
+    corner: vec2<u32>,
+    cells: vec2<u32>,
+    torus: vec2<u32>,
+    middle: vec2<f32>,
+    outer: vec2<f32>,
+    width: f32,
+    alpha: f32,
+    now: u32,
+    previous: u32,
+    foam: u32,
+    out: u32,
+}
+
+@group(0) @binding(0) var<storage, read> grid_draws: array<GridDraw>;
+@group(0) @binding(1) var<storage, read> grid_heights: array<f32>;
+@group(0) @binding(2) var<storage, read_write> grid_pool: array<vec2<f32>>;
+
+// Writes (height, foam) of every cell of the windows in the list, faded, `alpha` of the way to the last tick.
+@compute @workgroup_size(DRAW_THREADS)
+fn grid_draw(@builtin(global_invocation_id) id: vec3<u32>) {
+    let draw = &grid_draws[id.z];
+    let cells = (*draw).cells;
+    if id.x >= cells.x || id.y >= cells.y {
+        return;
+    }
+    let torus = (*draw).torus;
+    let at = (id.xy + (*draw).corner) % torus;
+    let cell = at.y * torus.x + at.x;
+    let distance = abs(vec2<f32>(id.xy) + 0.5 - (*draw).middle);
+    let t = clamp(((*draw).outer - distance) / (*draw).width, vec2<f32>(0.0), vec2<f32>(1.0));
+    let ramp = t * t * (3.0 - 2.0 * t);
+    let fade = ramp.x * ramp.y;
+    let previous = grid_heights[(*draw).previous + cell];
+    let now = grid_heights[(*draw).now + cell];
+    let foam = grid_heights[(*draw).foam + cell];
+    grid_pool[(*draw).out + id.y * cells.x + id.x] = fade * vec2<f32>(mix(previous, now, (*draw).alpha), foam);
+}
