@@ -1,5 +1,7 @@
 //! Inputs that cases and criterion benches share.
 
+use floating_body::{BodyError, Hull};
+use glam::Vec3;
 use ocean_spectrum::{CascadeDesc, OceanDesc, SeaState};
 use wave_grid::{GridDesc, Scheme};
 
@@ -22,6 +24,17 @@ pub fn grid() -> GridDesc {
 /// The grid of the paper's set-up.
 pub fn paper_grid() -> GridDesc {
     GridDesc { wave_speed: 5.2, scheme: Scheme::FivePoint, ..grid() }
+}
+
+/// Mass of a crate of flotsam, kg.
+pub const CRATE_MASS: f32 = 400.0;
+
+/// A crate of flotsam, 1 m^3.
+///
+/// # Errors
+/// Never: its sizes are in bounds.
+pub fn crate_hull() -> Result<Hull, BodyError> {
+    Hull::cuboid(Vec3::new(1.25, 0.8, 1.0))
 }
 
 /// Random numbers of our own (xorshift64*, Vigna 2016), so that a row means the same everywhere.

@@ -1,5 +1,6 @@
 //! The cases of the evidence, one file a topic.
 
+mod body_float;
 mod grid_border;
 mod grid_phase;
 mod grid_step;
@@ -18,4 +19,6 @@ pub const CASES: &[Case] = &[
     grid_border::PML,
     grid_border::SHIFT,
     grid_step::STEP,
+    body_float::DRAFT,
+    body_float::TICK,
 ];
