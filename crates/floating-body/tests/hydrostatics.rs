@@ -166,8 +166,7 @@ fn the_barge_heaves_rolls_and_pitches_in_its_periods() {
     let heave = |s: &mut BodyState| s.position.y += 0.1;
     let roll = |s: &mut BodyState| s.orientation = Quat::from_rotation_x(0.02);
     let pitch = |s: &mut BodyState| s.orientation = Quat::from_rotation_z(0.01);
-    for (radiation, expected) in
-        [(Radiation::Coefficients, [4.31, 3.84, 4.00]), (Radiation::Grid, [2.457, 2.76, 2.53])]
+    for (radiation, expected) in [(Radiation::Coefficients, [4.31, 3.84, 4.00]), (Radiation::Grid, [2.457, 2.76, 2.53])]
     {
         let found = [
             period(&mut released(radiation, heave), |s| s.position.y),

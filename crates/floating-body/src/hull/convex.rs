@@ -10,8 +10,9 @@ use glam::DVec3;
 use super::topology::Surface;
 use crate::BodyError;
 
-/// Points nearer to a face's plane than this share of the bounding box's diagonal count as on it.
-const PLANE_SHARE: f64 = 1.0e-9;
+/// Points are moved by up to this share of the bounding box's diagonal while the faces are found. Then no four lie in one
+/// plane, which is what breaks such algorithms on hulls with flat sides; the corners returned are the original ones.
+const JITTER_SHARE: f64 = 1.0e-6;
 
 struct Face {
     corners: [u32; 3],
@@ -32,10 +33,11 @@ impl Face {
 }
 
 /// The hull's surface, wound outwards, with the points that are its corners.
-pub(crate) fn convex_hull(points: &[DVec3]) -> Result<Surface, BodyError> {
+pub(crate) fn convex_hull(original: &[DVec3]) -> Result<Surface, BodyError> {
     let flat = || BodyError::ConvexHull { reason: "the points lie in one plane, on one line or in one spot".into() };
-    let first = simplex(points).ok_or_else(flat)?;
-    let tolerance = diagonal(points) * PLANE_SHARE;
+    let first = simplex(original).ok_or_else(flat)?;
+    let jittered = jitter(original);
+    let points = jittered.as_slice();
     let inside = first.iter().map(|i| points[*i as usize]).sum::<DVec3>() / 4.0;
     let mut faces: Vec<Face> = Vec::new();
     for skip in 0..4 {
@@ -47,8 +49,11 @@ pub(crate) fn convex_hull(points: &[DVec3]) -> Result<Surface, BodyError> {
     }
     let mut horizon: HashMap<(u32, u32), ()> = HashMap::new();
     for (index, point) in points.iter().enumerate() {
+        if first.contains(&(index as u32)) {
+            continue;
+        }
         horizon.clear();
-        for face in faces.iter().filter(|f| f.distance(*point) > tolerance) {
+        for face in faces.iter().filter(|f| f.distance(*point) > 0.0) {
             let [a, b, c] = face.corners;
             for (from, to) in [(a, b), (b, c), (c, a)] {
                 // An edge between two visible faces is met once in each direction and drops out.
@@ -60,12 +65,28 @@ pub(crate) fn convex_hull(points: &[DVec3]) -> Result<Surface, BodyError> {
         if horizon.is_empty() {
             continue;
         }
-        faces.retain(|f| f.distance(*point) <= tolerance);
+        faces.retain(|f| f.distance(*point) <= 0.0);
         let mut rim: Vec<(u32, u32)> = horizon.keys().copied().collect();
         rim.sort_unstable();
         faces.extend(rim.iter().map(|(from, to)| Face::new([*from, *to, index as u32], points)));
     }
-    Ok(compact(&faces, points))
+    Ok(compact(&faces, original))
+}
+
+/// The points, each moved by its own small random vector (splitmix64 of its number).
+fn jitter(points: &[DVec3]) -> Vec<DVec3> {
+    let size = diagonal(points) * JITTER_SHARE;
+    let random = |n: u64| {
+        let mut z = n.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let moved = |(i, p): (usize, &DVec3)| {
+        let n = 3 * i as u64 + 1;
+        *p + DVec3::new(random(n), random(n + 1), random(n + 2)) * size
+    };
+    points.iter().enumerate().map(moved).collect()
 }
 
 fn diagonal(points: &[DVec3]) -> f64 {
