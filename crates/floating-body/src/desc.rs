@@ -58,7 +58,7 @@ pub enum ForcePoints {
 pub struct BodyDesc {
     /// The shape.
     pub hull: Hull,
-    /// Mass in kg, 1e-4 to 1e9.
+    /// Mass in kg, 1e-6 to 1e9.
     pub mass: f32,
     /// Centre of mass, hull frame, m. Default: the hull's centroid.
     pub center_of_mass: Vec3,
@@ -126,6 +126,8 @@ impl BodyDesc {
         let resistance = mass * GRAVITY / 6.0;
         desc.drag.quadratic.x = (resistance / speed - desc.drag.linear.x).max(0.0) / speed;
         desc.drag.cross_flow.x = 0.3;
+        // A planing hull turns on its skeg: the forebody hardly resists.
+        desc.drag.angular_forward.y *= 0.15;
         desc.drag.lateral_center = Vec3::new(center.x - 0.06 * length, center.y + 0.02 * beam, center.z);
         let bollard = 1.7;
         let stern = waterline.center.x - 0.5 * length;
@@ -136,7 +138,7 @@ impl BodyDesc {
             position: Vec3::new(stern, waterline.level - draft.max(0.3), center.z),
             radius: (0.02 * length).max(0.05),
             max_angle: 0.45,
-            rudder_area: 0.004 * length * draft.max(0.1),
+            rudder_area: 0.006 * length * draft.max(0.1),
         });
         desc
     }
@@ -183,7 +185,7 @@ impl BodyDesc {
 
     /// Refuses what a step could not digest.
     pub(crate) fn check(&self) -> Result<(), BodyError> {
-        check_range("mass", self.mass, 1.0e-4, 1.0e9, "in [1e-4, 1e9] kg")?;
+        check_range("mass", self.mass, 1.0e-6, 1.0e9, "in [1e-6, 1e9] kg")?;
         check_range("water_density", self.water_density, 1.0, 2.0e4, "in [1, 20000] kg/m^3")?;
         check_all("center_of_mass", self.center_of_mass, -1.0e4, 1.0e4, "within +-10000 m")?;
         let c = &self.coefficients;

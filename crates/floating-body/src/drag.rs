@@ -52,7 +52,7 @@ impl Drag {
             linear: Vec3::new(0.02, 0.05, 0.05) * mass,
             quadratic: Vec3::new(along * w.profile.x, plate * plan, across * w.profile.y) * q,
             cross_flow: Vec3::new(1.0, cross, 1.0),
-            angular_linear: Vec3::ZERO,
+            angular_linear: Vec3::splat(0.1 * mass * (length * length + beam * beam) / 12.0),
             angular_quadratic: Vec3::new(
                 cubes(length, beam),
                 cubes(draft, length) + cubes(draft, beam),

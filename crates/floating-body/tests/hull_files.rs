@@ -65,6 +65,8 @@ fn bad_files_name_the_place_and_what_was_found() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn garbage_never_panics(bytes in proptest::collection::vec(any::<u8>(), 0..400), kind in 0..4_usize) {
         let name = ["a.stl", "a.obj", "a.gltf", "a.glb"][kind];

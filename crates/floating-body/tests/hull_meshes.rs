@@ -111,6 +111,8 @@ fn what_is_no_hull_is_refused_by_name() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn any_soup_gives_a_hull_or_an_error(
         points in proptest::collection::vec((-2.0..2.0_f32, -2.0..2.0_f32, -2.0..2.0_f32), 0..24),

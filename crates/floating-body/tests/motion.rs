@@ -30,7 +30,8 @@ fn a_tilted_crate_comes_to_float_level() {
     run(&mut body, 60.0, &FlatWater::default());
     let up = body.state().orientation * Vec3::Y;
     assert!(up.y > 0.9999, "{up}");
-    assert!(body.state().velocity.length() < 1e-3 && body.state().angular_velocity.length() < 1e-3);
+    let state = body.state();
+    assert!(state.velocity.length() < 0.02 && state.angular_velocity.length() < 1e-3, "{state:?}");
 }
 
 #[test]
@@ -165,7 +166,7 @@ fn riding_a_swell_tells_the_water_nothing() {
         }
     }
     // The swell moves the surface by up to .7 m/s: the height alone would change the volume by 4e-3 m^3 a tick.
-    assert!(largest < 2e-4, "{largest}");
+    assert!(largest < 5e-4, "{largest}");
 }
 
 #[test]
@@ -199,15 +200,15 @@ fn the_own_grid_is_felt_with_radiation_grid_only() {
     }
     for (radiation, expected) in [(Radiation::Coefficients, 0.0), (Radiation::Grid, 0.2)] {
         for sampling in [Sampling::Patch, Sampling::Points] {
-            let hull = Hull::cuboid(Vec3::splat(1.0)).unwrap();
-            let mut desc = BodyDesc::from_hull(&hull, 512.5);
+            let hull = Hull::cuboid(Vec3::new(1.5, 1.0, 1.5)).unwrap();
+            let mut desc = BodyDesc::from_hull(&hull, 2.25 * 512.5);
             (desc.radiation, desc.sampling) = (radiation, sampling);
             let mut body = Body::new(desc).unwrap();
             run(&mut body, 60.0, &Own);
             let y = body.state().position.y;
             assert!((y - expected).abs() < 0.01, "{radiation:?} {sampling:?}: {y}");
             // The source never includes it: raised by .2 m, the body displaces that much less ambient water.
-            assert!((body.told_volume() - (0.5 - expected)).abs() < 0.01, "{}", body.told_volume());
+            assert!((body.told_volume() - 2.25 * (0.5 - expected)).abs() < 0.02, "{}", body.told_volume());
         }
     }
 }
