@@ -32,9 +32,11 @@
 
 pub mod dispersion;
 mod error;
+mod fft;
 mod file;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod held;
 mod kernel;
 mod modes;
 mod ocean;
@@ -53,7 +55,7 @@ pub mod turns;
 
 pub use error::{Notice, OceanError};
 pub use modes::CascadeModes;
-pub use ocean::{CascadeDesc, CascadeFields, Ocean, OceanDesc, Repro};
+pub use ocean::{CascadeDesc, CascadeFields, Ocean, OceanDesc};
 pub use patch::OceanPatch;
 pub use query::OceanSample;
 pub use sea::{Partition, SeaState, Spectrum, Spreading, TableRow};

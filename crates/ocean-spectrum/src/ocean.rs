@@ -21,16 +21,6 @@ pub struct CascadeDesc {
     pub tile: f32,
 }
 
-/// Which FFT runs on the CPU.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Repro {
-    /// Equal bits on every machine and thread count.
-    #[default]
-    Exact,
-    /// The fastest code that the processor has; bits may differ between processors, heights by about 1e-7 of Hs.
-    Fast,
-}
-
 /// Description of a sea.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OceanDesc {
@@ -44,8 +34,6 @@ pub struct OceanDesc {
     pub choppiness: f32,
     /// Seconds after which everything repeats, 10 to 10,000. Frequencies are rounded to whole turns of it.
     pub loop_time: f64,
-    /// Which FFT runs on the CPU.
-    pub repro: Repro,
 }
 
 impl Default for OceanDesc {
@@ -58,7 +46,6 @@ impl Default for OceanDesc {
             cascades: vec![cascade(485.0), cascade(72.4), cascade(10.8)],
             choppiness: 1.0,
             loop_time: 1024.0,
-            repro: Repro::Exact,
         }
     }
 }
@@ -130,8 +117,7 @@ impl Ocean {
         if share > 0.01 {
             notices.push(Notice::VarianceLost { share });
         }
-        let layers =
-            modes.iter().zip(Synthesis::all(&modes, &desc)).map(|(modes, fields)| Layer::new(modes, fields)).collect();
+        let layers = modes.iter().map(|modes| Layer::new(modes, Synthesis::new(modes, &desc))).collect();
         let mut ocean = Self { desc, spectrum, modes, layers, notices, phase: 0, variance };
         ocean.synthesise();
         Ok(ocean)

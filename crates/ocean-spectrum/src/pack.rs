@@ -5,22 +5,11 @@
 //! acceleration) is scaled by a power of two to about its partner's size, and back afterwards.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
-use rustfft::num_complex::Complex32;
-
+use crate::fft::{Complex, LANES};
+use crate::held::Block;
 use crate::{CascadeModes, OceanDesc};
-
-/// A row of the propagated modes.
-pub(crate) struct Row<'a> {
-    pub(crate) kz: f32,
-    pub(crate) kx: &'a [f32],
-    pub(crate) inverse_k: &'a [f32],
-    pub(crate) omega: &'a [f32],
-    /// Height, real and imaginary part.
-    pub(crate) h: [&'a [f32]; 2],
-    /// Its rate.
-    pub(crate) v: [&'a [f32]; 2],
-}
 
 /// The packing of one array of four fields.
 #[derive(Debug, Clone, Copy)]
@@ -63,41 +52,47 @@ impl Pack {
         }
     }
 
-    /// Fills a row of both transforms. With `e = i k/|k|` per axis: `D = chop e h`, `grad h = i k h`.
-    pub(crate) fn fill(self, row: &Row, first: &mut [Complex32], second: &mut [Complex32]) {
-        let width = row.kx.len();
-        let (kx, inverse_k, omega) = (row.kx, &row.inverse_k[..width], &row.omega[..width]);
-        let ([h_re, h_im], [v_re, v_im]) = (row.h, row.v);
-        let (h_re, h_im, v_re, v_im) = (&h_re[..width], &h_im[..width], &v_re[..width], &v_im[..width]);
-        let (first, second) = (&mut first[..width], &mut second[..width]);
-        let kz = row.kz;
-        match self {
-            Self::Displacement { chop, scale } => {
-                for i in 0..width {
-                    let unit = chop * inverse_k[i];
-                    let p = 1.0 + unit * kx[i];
-                    let q = unit * kz * (1.0 - scale * kx[i]);
-                    // i times real times h
-                    first[i] = Complex32::new(-p * h_im[i], p * h_re[i]);
-                    second[i] = Complex32::new(-q * h_im[i], q * h_re[i]);
+    /// Fills a block of rows of both transforms, except the columns of `gap`, which hold no modes. With `e = i k/|k|`
+    /// per axis: `D = chop e h`, `grad h = i k h`.
+    pub(crate) fn fill(self, block: &Block, gap: &Range<usize>, first: &mut [Complex], second: &mut [Complex]) {
+        let (low, high) = (0..gap.start, gap.end..first.len());
+        let columns = low.chain(high);
+        let cells = block.kx.iter().zip(block.cells).zip(block.now);
+        for (column, ((&kx, cell), now)) in columns.zip(cells) {
+            let (first, second) = (&mut first[column], &mut second[column]);
+            let ([h_re, h_im], [v_re, v_im]) = (&now.h, &now.v);
+            match self {
+                Self::Displacement { chop, scale } => {
+                    for l in 0..LANES {
+                        let unit = chop * cell.inverse_k[l];
+                        let p = 1.0 + unit * kx;
+                        let q = unit * block.kz[l] * (1.0 - scale * kx);
+                        // i times real times h
+                        (first.re[l], first.im[l]) = (-p * h_im[l], p * h_re[l]);
+                        (second.re[l], second.im[l]) = (-q * h_im[l], q * h_re[l]);
+                    }
                 }
-            }
-            Self::Derivative { chop } => {
-                for i in 0..width {
-                    // (i kx - kz) h and -(kx^2 + i kz^2) chop/k h
-                    first[i] = Complex32::new(-kx[i] * h_im[i] - kz * h_re[i], kx[i] * h_re[i] - kz * h_im[i]);
-                    let unit = chop * inverse_k[i];
-                    let (p, q) = (unit * kx[i] * kx[i], unit * kz * kz);
-                    second[i] = Complex32::new(q * h_im[i] - p * h_re[i], -p * h_im[i] - q * h_re[i]);
+                Self::Derivative { chop } => {
+                    for l in 0..LANES {
+                        let kz = block.kz[l];
+                        // (i kx - kz) h and -(kx^2 + i kz^2) chop/k h
+                        first.re[l] = -kx * h_im[l] - kz * h_re[l];
+                        first.im[l] = kx * h_re[l] - kz * h_im[l];
+                        let unit = chop * cell.inverse_k[l];
+                        let (p, q) = (unit * kx * kx, unit * kz * kz);
+                        second.re[l] = q * h_im[l] - p * h_re[l];
+                        second.im[l] = -p * h_im[l] - q * h_re[l];
+                    }
                 }
-            }
-            Self::Velocity { chop, scale } => {
-                for i in 0..width {
-                    let unit = chop * inverse_k[i];
-                    let p = 1.0 + unit * kx[i];
-                    let (q, r) = (unit * kz, scale * omega[i] * omega[i]);
-                    first[i] = Complex32::new(-p * v_im[i], p * v_re[i]);
-                    second[i] = Complex32::new(r * h_im[i] - q * v_im[i], q * v_re[i] - r * h_re[i]);
+                Self::Velocity { chop, scale } => {
+                    for l in 0..LANES {
+                        let unit = chop * cell.inverse_k[l];
+                        let p = 1.0 + unit * kx;
+                        let (q, r) = (unit * block.kz[l], scale * cell.omega[l] * cell.omega[l]);
+                        (first.re[l], first.im[l]) = (-p * v_im[l], p * v_re[l]);
+                        second.re[l] = r * h_im[l] - q * v_im[l];
+                        second.im[l] = q * v_re[l] - r * h_re[l];
+                    }
                 }
             }
         }

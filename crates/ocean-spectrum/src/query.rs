@@ -3,6 +3,9 @@
 //! One point's answer does not depend on the others asked for with it.
 
 use glam::{Vec2, Vec3};
+use open_water_shaders::surface::{
+    CHOP_FIXED_ROUNDS, CHOP_LEAST_SLOPE, CHOP_LEAST_STEP, CHOP_NEWTON_ROUNDS, CHOP_TOLERANCE,
+};
 use rayon::prelude::*;
 
 use crate::kernel::Taps;
@@ -10,15 +13,8 @@ use crate::patch::Band;
 use crate::synthesis::Synthesis;
 use crate::{CascadeModes, Ocean};
 
-/// Rounds of `rest <- point - D(rest)`, then of Newton's method, which also gets to the steep places.
-const FIXED_ROUNDS: usize = 2;
-const NEWTON_ROUNDS: usize = 6;
-/// A residual that is good enough, metres.
-const TOLERANCE: f32 = 2e-4;
 /// Where the surface does not fold, some particle is nearer than this, metres.
 const LARGEST_RESIDUAL: f32 = 1e-3;
-/// Slopes are those of a surface that is compressed at most this much, so that they stay finite where it folds.
-const LEAST_JACOBIAN: f32 = 0.05;
 /// Farthest position that is answered, metres: f32 cannot tell places apart long before.
 const FARTHEST: f32 = 1e8;
 /// Points that one task answers.
@@ -111,17 +107,17 @@ fn sum(layers: &[Layer], rest: Vec2, texels: impl Fn(&Synthesis) -> &[[f32; 4]])
 pub(crate) fn find(layers: &[Layer], point: Vec2) -> Found {
     let mut rest = point;
     let mut best = Found { rest, residual: f32::INFINITY, displacement: [0.0; 4] };
-    for round in 0..=FIXED_ROUNDS + NEWTON_ROUNDS {
+    for round in 0..=CHOP_FIXED_ROUNDS + CHOP_NEWTON_ROUNDS {
         let displacement = sum(layers, rest, Synthesis::displacement);
         let miss = point - rest - Vec2::new(displacement[0], displacement[2]);
         let residual = miss.length();
         if residual < best.residual {
             best = Found { rest, residual, displacement };
         }
-        if residual < TOLERANCE {
+        if residual < CHOP_TOLERANCE {
             break;
         }
-        rest += if round < FIXED_ROUNDS { miss } else { newton_step(layers, rest, displacement[3], miss) };
+        rest += if round < CHOP_FIXED_ROUNDS { miss } else { newton_step(layers, rest, displacement[3], miss) };
     }
     best
 }
@@ -130,7 +126,7 @@ fn newton_step(layers: &[Layer], rest: Vec2, cross: f32, miss: Vec2) -> Vec2 {
     let d = sum(layers, rest, Synthesis::derivative);
     let (a, b) = (1.0 + d[2], 1.0 + d[3]);
     // Near a fold the step would be arbitrarily long.
-    let jacobian = (a * b - cross * cross).max(0.1);
+    let jacobian = (a * b - cross * cross).max(CHOP_LEAST_STEP);
     let step = Vec2::new(b * miss.x - cross * miss.y, a * miss.y - cross * miss.x) / jacobian;
     step.clamp_length_max(4.0 * miss.length())
 }
@@ -168,7 +164,7 @@ pub(crate) fn is_place(point: Vec2) -> bool {
 /// Slope in world coordinates from `(dh/dx, dh/dz, dDx/dx, dDz/dz)` and `dDx/dz`, all by rest coordinates.
 pub(crate) fn world_slope(d: [f32; 4], cross: f32) -> Vec2 {
     let (a, b) = (1.0 + d[2], 1.0 + d[3]);
-    let jacobian = (a * b - cross * cross).max(LEAST_JACOBIAN);
+    let jacobian = (a * b - cross * cross).max(CHOP_LEAST_SLOPE);
     Vec2::new(b * d[0] - cross * d[1], a * d[1] - cross * d[0]) / jacobian
 }
 

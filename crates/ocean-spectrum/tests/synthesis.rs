@@ -2,15 +2,15 @@
 
 use glam::DVec2;
 use ocean_spectrum::reference::{self, Fields};
-use ocean_spectrum::{CascadeDesc, CascadeModes, Ocean, OceanDesc, Repro};
+use ocean_spectrum::{CascadeDesc, CascadeModes, Ocean, OceanDesc};
 
-fn sea(repro: Repro) -> Ocean {
+fn sea() -> Ocean {
     let cascades = vec![
         CascadeDesc { size: 128, tile: 485.0 },
         CascadeDesc { size: 128, tile: 72.4 },
         CascadeDesc { size: 64, tile: 10.8 },
     ];
-    Ocean::new(OceanDesc { cascades, seed: 5, repro, choppiness: 0.8, ..Default::default() }).unwrap()
+    Ocean::new(OceanDesc { cascades, seed: 5, choppiness: 0.8, ..Default::default() }).unwrap()
 }
 
 fn sum(ocean: &Ocean, c: usize, x: DVec2, t: f64) -> Fields {
@@ -68,7 +68,7 @@ fn the_reference_gives_a_known_wave() {
 
 #[test]
 fn the_reference_agrees_with_its_own_differences() {
-    let ocean = sea(Repro::Exact);
+    let ocean = sea();
     let (x, t, e) = (DVec2::new(3.3, 8.1), 77.7, 1e-4);
     for c in 0..3 {
         let f = sum(&ocean, c, x, t);
@@ -97,16 +97,14 @@ fn the_reference_agrees_with_its_own_differences() {
 
 #[test]
 fn arrays_match_the_direct_sum() {
-    for repro in [Repro::Exact, Repro::Fast] {
-        let mut ocean = sea(repro);
-        for t in [0.0, 123.456, -50.25, 1e7 + 0.3] {
-            ocean.set_time(t);
-            let turns = (ocean.time() - t) / ocean.desc().loop_time;
-            assert!((turns - turns.round()).abs() < 2e-10);
-            for c in 0..3 {
-                let errors = errors(&ocean, c, ocean.time());
-                assert!(errors.iter().all(|&e| e < 1e-6), "{repro:?} t = {t}, cascade {c}: {errors:?}");
-            }
+    let mut ocean = sea();
+    for t in [0.0, 123.456, -50.25, 1e7 + 0.3] {
+        ocean.set_time(t);
+        let turns = (ocean.time() - t) / ocean.desc().loop_time;
+        assert!((turns - turns.round()).abs() < 2e-10);
+        for c in 0..3 {
+            let errors = errors(&ocean, c, ocean.time());
+            assert!(errors.iter().all(|&e| e < 1e-6), "t = {t}, cascade {c}: {errors:?}");
         }
     }
 }
