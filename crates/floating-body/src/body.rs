@@ -1,7 +1,11 @@
 //! A floating body: its state, and one tick of its motion.
 
+mod query;
+mod stiffness;
+
 use glam::{Mat3, Quat, Vec2, Vec3};
 
+use self::stiffness::stiffness;
 use crate::desc::{Inertia, Radiation, Sampling};
 use crate::drag::implicit;
 use crate::forces::{LocalWater, Pose, gravity, immerse, read_patch, read_points};
@@ -100,11 +104,7 @@ impl Body {
             Inertia::Full => full,
             Inertia::PreRigid => Mat3::from_diagonal(Vec3::splat(mean)),
         };
-        let slope = |p: &ForcePoint| desc.water_density * GRAVITY * p.volume / (2.0 * p.half.min_element());
-        let level = |p: &ForcePoint| desc.water_density * GRAVITY * p.volume / (2.0 * p.half.y);
-        let lever = |p: &ForcePoint| level(p) * (p.position.length_squared() + p.half.length_squared());
-        let heave = points.iter().map(|p| slope(p).min(4.0 * level(p))).sum::<f32>() / desc.mass;
-        let turn = points.iter().map(lever).sum::<f32>() / least.max(0.05 * most);
+        let stiffness = stiffness(&points, &desc, full);
         let (low, high) = desc.hull.bounds();
         let count = points.len() + usize::from(desc.engine.is_some());
         let state = BodyState::at_rest(Vec3::new(0.0, desc.center_of_mass.y - waterline.level, 0.0));
@@ -113,7 +113,7 @@ impl Body {
             mismatch: (most - least) / mean,
             waterline,
             reach: 0.5 * (high - low).length(),
-            stiffness: Vec2::new(heave, turn),
+            stiffness,
             state,
             good: state,
             resets: 0,
@@ -280,11 +280,6 @@ impl Body {
         }
     }
 
-    /// Volume in m^3 that the water has been told of; the sum of all displacements changes with it.
-    pub fn told_volume(&self) -> f32 {
-        self.columns.iter().map(Column::told).sum()
-    }
-
     /// Where it is and how it moves.
     pub fn state(&self) -> BodyState {
         self.state
@@ -311,56 +306,5 @@ impl Body {
         self.good.position -= shift;
         self.columns.iter_mut().for_each(|c| c.rebase(offset));
         self.wash.center -= offset;
-    }
-
-    /// Pose of the hull's frame, to draw its mesh: origin in m and orientation.
-    pub fn hull_pose(&self) -> (Vec3, Quat) {
-        let origin = self.state.position - matrix(self.state.orientation) * self.desc.center_of_mass;
-        (origin, self.state.orientation)
-    }
-
-    /// The description it was made from.
-    pub fn desc(&self) -> &BodyDesc {
-        &self.desc
-    }
-
-    /// The force points, relative to the centre of mass, hull axes.
-    pub fn force_points(&self) -> &[ForcePoint] {
-        &self.points
-    }
-
-    /// Height in m of the centre of mass over still water when the body floats upright.
-    pub fn rest_height(&self) -> f32 {
-        self.desc.center_of_mass.y - self.waterline.level
-    }
-
-    /// Upright floatation at rest.
-    pub fn waterline(&self) -> &Waterline {
-        &self.waterline
-    }
-
-    /// Metacentric heights (roll, pitch) in m; negative ones do not float upright.
-    pub fn metacentric_heights(&self) -> Vec2 {
-        self.waterline.metacentric_heights(self.desc.center_of_mass.y)
-    }
-
-    /// Spread of the principal moments over their mean, which [`Inertia::PreRigid`] neglects: 0 for a sphere.
-    pub fn inertia_mismatch(&self) -> f32 {
-        self.mismatch
-    }
-
-    /// Radius in m of a sphere about the centre of the bounding box that holds the hull.
-    pub fn bounding_radius(&self) -> f32 {
-        self.reach
-    }
-
-    /// Immersed volume in m^3 at the last sub-step.
-    pub fn immersed_volume(&self) -> f32 {
-        self.immersed
-    }
-
-    /// How often a state that was not finite had to be replaced.
-    pub fn resets(&self) -> u32 {
-        self.resets
     }
 }

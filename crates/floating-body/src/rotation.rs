@@ -71,9 +71,9 @@ pub(crate) fn principal_moments(tensor: Mat3) -> [f32; 3] {
             for row in &mut a {
                 (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
             }
-            for k in 0..3 {
-                (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
-            }
+            let (upper, lower) = (a[p], a[q]);
+            a[p] = std::array::from_fn(|k| c * upper[k] - s * lower[k]);
+            a[q] = std::array::from_fn(|k| s * upper[k] + c * lower[k]);
         }
     }
     [a[0][0] as f32, a[1][1] as f32, a[2][2] as f32]

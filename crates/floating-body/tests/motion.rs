@@ -1,8 +1,8 @@
 //! Motion: drag, slopes, waves, displaced volume, the launch under power.
 
 use floating_body::{
-    AiryWave, Body, BodyDesc, BodyState, Closure, Controls, Displacement, Drag, FlatWater, Hull, Inertia, Radiation,
-    Sampling, SurfacePatch, SurfaceSample, WATER_DENSITY, WaterSurface,
+    AiryWave, Body, BodyDesc, BodyState, Controls, Displacement, Drag, FlatWater, Hull, Inertia, Radiation, Sampling,
+    SurfacePatch, SurfaceSample, WATER_DENSITY, WaterSurface,
 };
 use glam::{Quat, Vec2, Vec3};
 
@@ -244,6 +244,8 @@ fn a_long_body_tumbles_freely_with_constant_energy() {
 
 #[cfg(feature = "mesh-files")]
 mod launch {
+    use floating_body::Closure;
+
     use super::*;
 
     fn launch(speed: f32) -> Body {
