@@ -117,13 +117,13 @@ fn floating(hull: &Hull, density: f64, count: Option<u32>) -> Result<Body, CaseE
     Ok(Body::new(desc)?)
 }
 
-/// Percent of the draft, after a drop and two minutes to come to rest.
+/// Percent of the draft, after a drop and a minute to come to rest.
 fn draft_error(shape: &Shape, density: f64, count: Option<u32>) -> Result<f64, CaseError> {
     let mut body = floating(&shape.hull, density, count)?;
     let mut state = body.state();
     state.position.y += 0.05;
     body.set_state(state);
-    for _ in 0..120 * 60 {
+    for _ in 0..60 * 60 {
         body.step(DT, &FlatWater::default(), &Controls::default());
     }
     let (position, _) = body.hull_pose();

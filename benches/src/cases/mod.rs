@@ -1,10 +1,13 @@
 //! The cases of the evidence, one file a topic.
 
 mod body_float;
+mod energy;
+mod facade;
 mod grid_border;
 mod grid_phase;
 mod grid_step;
 mod ocean_fft;
+mod ocean_gpu;
 mod ocean_height;
 
 use crate::evidence::Case;
@@ -12,6 +15,7 @@ use crate::evidence::Case;
 /// Every case, in the order of the report.
 pub const CASES: &[Case] = &[
     ocean_fft::CPU,
+    ocean_gpu::GPU,
     ocean_fft::VARIANCE,
     ocean_height::HS,
     ocean_height::QUERIES,
@@ -21,4 +25,9 @@ pub const CASES: &[Case] = &[
     grid_step::STEP,
     body_float::DRAFT,
     body_float::TICK,
+    facade::GPU_VS_CPU,
+    facade::BODIES_EQUAL,
+    energy::ENERGY,
+    facade::EMPTY,
+    facade::TICK,
 ];

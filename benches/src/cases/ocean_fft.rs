@@ -2,7 +2,7 @@
 
 use std::{hint::black_box, sync::Arc};
 
-use ocean_spectrum::{CascadeFields, Ocean, OceanDesc, Repro};
+use ocean_spectrum::Ocean;
 use rayon::prelude::*;
 use rustfft::{Fft, FftPlanner, num_complex::Complex32};
 
@@ -43,73 +43,78 @@ pub(super) const VARIANCE: Case = Case {
 /// Texels that are compared in each cascade.
 const TEXELS: usize = 64;
 /// Names of the fields in the order of [`Fields`].
-const NAMES: [&str; 12] =
+pub(super) const NAMES: [&str; 12] =
     ["Dx", "h", "Dz", "dDx/dz", "dh/dx", "dh/dz", "dDx/dx", "dDz/dz", "dDx/dt", "dh/dt", "dDz/dt", "d2h/dt2"];
 
 fn cpu(context: &Context) -> Result<Vec<Row>, CaseError> {
     let mut rows = Vec::new();
-    for (variant, repro) in [("exact", Repro::Exact), ("fast", Repro::Fast)] {
-        for &size in context.pick(&[128, 256][..], &[64, 128, 256, 512, 1024]) {
-            let desc = OceanDesc { repro, ..fixtures::ocean(size) };
-            let mut ocean = Ocean::new(desc.clone())?;
-            let mut worst = (0.0f64, "");
-            for c in 0..desc.cascades.len() {
-                let errors = errors(&mut ocean, c);
-                for (error, name) in errors.into_iter().zip(NAMES) {
-                    if error > worst.0 || error.is_nan() {
-                        worst = (error, name);
-                    }
+    for &size in context.pick(&[128, 256][..], &[64, 128, 256, 512, 1024]) {
+        let desc = fixtures::ocean(size);
+        let mut ocean = Ocean::new(desc.clone())?;
+        let mut worst = (0.0f64, "");
+        for c in 0..desc.cascades.len() {
+            let errors = errors(&mut ocean, c);
+            for (error, name) in errors.into_iter().zip(NAMES) {
+                if error > worst.0 || error.is_nan() {
+                    worst = (error, name);
                 }
             }
-            let mut time = 0.0;
-            let mut plain = Plain::new(size as usize, 6 * desc.cascades.len());
-            let [ours, theirs] = measure_together(
-                context.effort,
-                [
-                    &mut || {
-                        time += 1.0 / 60.0;
-                        ocean.set_time(black_box(time));
-                    },
-                    &mut || plain.run(),
-                ],
-            );
-            rows.push(
-                Row::new("fft_cpu", variant)
-                    .param("size", size)
-                    .param("cascades", desc.cascades.len())
-                    .param("worst_field", worst.1)
-                    .error(worst.0, "relative RMS", "direct sum in f64")
-                    .bound(1e-6)
-                    .time("twelve fields of every cascade at a new time", &ours)
-                    .baseline("rustfft alone on as many complex arrays, one a thread, rows and a transpose", &theirs),
-            );
         }
+        let mut time = 0.0;
+        let mut plain = Plain::new(size as usize, 6 * desc.cascades.len());
+        let [ours, theirs] = measure_together(
+            context.effort,
+            [
+                &mut || {
+                    time += 1.0 / 60.0;
+                    ocean.set_time(black_box(time));
+                },
+                &mut || plain.run(),
+            ],
+        );
+        rows.push(
+            Row::new("fft_cpu", "own FFT, equal bits everywhere")
+                .param("size", size)
+                .param("cascades", desc.cascades.len())
+                .param("worst_field", worst.1)
+                .error(worst.0, "relative RMS", "direct sum in f64")
+                .bound(1e-6)
+                .time("twelve fields of every cascade at a new time", &ours)
+                .baseline("rustfft alone on as many complex arrays, one a thread, rows and a transpose", &theirs),
+        );
     }
     Ok(rows)
 }
 
-/// Relative RMS error of each field of a cascade.
-fn errors(ocean: &mut Ocean, c: usize) -> Fields {
-    let loop_time = ocean.desc().loop_time;
-    // A dyadic part of the loop, so that the time itself is exact.
-    let time = loop_time * 0.314_453_125;
-    ocean.set_time(time);
-    let waves = Waves::of(&ocean.modes()[c..=c], ocean.desc().choppiness, loop_time);
-    compare(&ocean.fields(c), &waves, time)
+/// A time that is a dyadic part of the loop, so that its phase is exact.
+pub(super) fn exact_time(ocean: &Ocean) -> f64 {
+    ocean.desc().loop_time * 0.314_453_125
 }
 
-/// Relative RMS error of each field over some texels.
-pub(super) fn compare(fields: &CascadeFields, waves: &Waves, time: f64) -> Fields {
-    let size = fields.size as usize;
+/// Relative RMS error of each field of a cascade.
+fn errors(ocean: &mut Ocean, c: usize) -> Fields {
+    let time = exact_time(ocean);
+    ocean.set_time(time);
+    let fields = ocean.fields(c);
+    compare(ocean, c, |texel| {
+        let made = [fields.displacement[texel], fields.derivative[texel], fields.velocity[texel]];
+        std::array::from_fn(|i| f64::from(made[i / 4][i % 4]))
+    })
+}
+
+/// Relative RMS error of each field over some texels of a cascade at [`exact_time`].
+pub(super) fn compare(ocean: &Ocean, c: usize, made: impl Fn(usize) -> Fields + Sync) -> Fields {
+    let modes = &ocean.modes()[c];
+    let waves = Waves::of(&ocean.modes()[c..=c], ocean.desc().choppiness, ocean.desc().loop_time);
+    let (size, time) = (modes.size as usize, exact_time(ocean));
     let mut random = Random::new(11);
     let texels: Vec<usize> = (0..TEXELS).map(|_| random.within(0.0, (size * size) as f64) as usize).collect();
     let sums: Vec<[Fields; 2]> = texels
         .par_iter()
         .map(|&texel| {
-            let step = f64::from(fields.tile) / size as f64;
+            let step = f64::from(modes.tile) / size as f64;
             let truth = waves.at((texel % size) as f64 * step, (texel / size) as f64 * step, time);
-            let made = [fields.displacement[texel], fields.derivative[texel], fields.velocity[texel]];
-            let made: Fields = std::array::from_fn(|i| f64::from(made[i / 4][i % 4]));
+            let made = made(texel);
             [std::array::from_fn(|i| (made[i] - truth[i]).powi(2)), truth.map(|value| value * value)]
         })
         .collect();

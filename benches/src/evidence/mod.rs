@@ -4,6 +4,7 @@ mod context;
 pub mod limits;
 mod machine;
 mod plot;
+mod readback;
 mod report;
 mod table;
 mod timing;
