@@ -12,7 +12,7 @@ use crate::forces::{LocalWater, Pose, gravity, immerse, read_patch, read_points}
 use crate::hull::Waterline;
 use crate::rotation::{matrix, normalized, principal_moments, tumble, turned};
 use crate::source::{Column, Displacement};
-use crate::{BodyDesc, BodyError, Controls, ForcePoint, GRAVITY, SurfaceSample, WaterSurface};
+use crate::{BodyDesc, BodyError, Controls, ForcePoint, SurfaceSample, WaterSurface};
 
 /// Longest tick in s; what is longer is cut.
 const LONGEST_TICK: f32 = 1.0;

@@ -87,7 +87,7 @@ fn wedge() -> TriMesh {
 fn a_mesh_hull_floats_at_its_draft() {
     let hull = Hull::from_mesh(&wedge(), floating_body::Closure::Require).unwrap();
     assert!((hull.volume() - 18.0).abs() < 1e-3, "{}", hull.volume());
-    for displaced in [1.5_f32, 4.0, 6.0, 10.0] {
+    for displaced in [1.5_f32, 2.5, 4.0, 6.0, 10.0] {
         let expected = if displaced < 6.0 { (displaced / 6.0).sqrt() } else { 1.0 + (displaced - 6.0) / 12.0 };
         let mut desc = BodyDesc::from_hull(&hull, displaced * WATER_DENSITY);
         desc.center_of_mass.y = 0.5;
