@@ -8,7 +8,7 @@ use glam::{Mat3, Quat, Vec2, Vec3};
 use self::stiffness::stiffness;
 use crate::desc::{Inertia, Radiation, Sampling};
 use crate::drag::implicit;
-use crate::forces::{LocalWater, Pose, gravity, immerse, read_patch, read_points};
+use crate::forces::{LocalWater, Pose, gravity, immerse, read_patch, read_points, resistance_axes};
 use crate::hull::Waterline;
 use crate::rotation::{matrix, normalized, principal_moments, tumble, turned};
 use crate::source::{Column, Displacement};
@@ -172,7 +172,8 @@ impl Body {
     }
 
     fn pose(&self) -> Pose {
-        Pose { position: self.state.position, rotation: matrix(self.state.orientation) }
+        let BodyState { position, orientation, velocity, .. } = self.state;
+        Pose { position, rotation: matrix(orientation), velocity }
     }
 
     fn read(&mut self, water: &dyn WaterSurface) {
@@ -200,26 +201,27 @@ impl Body {
         let share = (wet.volume / self.waterline.volume).min(DEEPEST);
         let to_body = pose.rotation.transpose();
         let coefficients = if own { Default::default() } else { desc.coefficients };
-        let water = to_body * wet.velocity;
-        let velocity = to_body * self.state.velocity;
+        let axes = resistance_axes(pose.rotation, wet.slope, desc.hull.is_blunt());
+        let to_axes = axes.transpose();
+        let water = to_axes * wet.velocity;
+        let velocity = to_axes * self.state.velocity;
 
         let (engine_force, engine_torque) = self.engine(&pose, velocity - water, controls);
         let added = coefficients.added_mass * share;
         let whole = Vec3::splat(desc.mass) + added;
-        let drive = to_body * (wet.force + gravity(desc.mass) + controls.force)
-            + engine_force
-            + added * (to_body * Vec3::new(0.0, wet.acceleration, 0.0));
+        let drive = to_axes * (wet.force + gravity(desc.mass) + controls.force + pose.rotation * engine_force)
+            + added * (to_axes * Vec3::new(0.0, wet.acceleration, 0.0));
         // What the sub-steps cannot resolve is held back as an implicit step would.
         let held = 1.0 + (self.stiffness.x * dt * dt - FINEST * FINEST).max(0.0);
         let pushed = velocity + drive / (whole * held) * dt - water;
         let rates = (desc.drag.rates(pushed) + coefficients.damping) * share;
         let slowed = implicit(pushed, rates, whole, dt);
         let sideways = whole.z * (slowed.z - pushed.z) / dt;
-        self.state.velocity = pose.rotation * (slowed + water);
+        self.state.velocity = axes * (slowed + water);
 
         let lateral = desc.drag.lateral_center - desc.center_of_mass;
         let torque =
-            to_body * (wet.torque + controls.torque) + engine_torque + lateral.cross(Vec3::new(0.0, 0.0, sideways));
+            to_body * (wet.torque + controls.torque) + engine_torque + lateral.cross(to_body * axes.z_axis * sideways);
         let inertia = self.inertia + Mat3::from_diagonal(coefficients.added_inertia * share);
         let held = 1.0 + (self.stiffness.y * dt * dt - FINEST * FINEST).max(0.0);
         let turning = to_body * self.state.angular_velocity + inertia.inverse() * torque * (dt / held);

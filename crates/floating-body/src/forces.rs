@@ -89,7 +89,9 @@ pub(crate) struct Wetness {
     /// Mean velocity and vertical acceleration of the water about the immersed volume.
     pub(crate) velocity: Vec3,
     pub(crate) acceleration: f32,
-    /// Rotation of that water about the centre of mass, rad/s, body axes.
+    /// Mean slope of the surface over the immersed volume.
+    pub(crate) slope: Vec2,
+    /// Rotation about the centre of mass, rad/s, body axes, of the surface as the moving body meets it.
     pub(crate) spin: Vec3,
 }
 
@@ -98,6 +100,8 @@ pub(crate) struct Wetness {
 pub(crate) struct Pose {
     pub(crate) position: Vec3,
     pub(crate) rotation: Mat3,
+    /// Of the centre of mass, m/s.
+    pub(crate) velocity: Vec3,
 }
 
 /// Sums buoyancy and the water's motion over the force points (relative to the centre of mass, body axes).
@@ -123,13 +127,18 @@ pub(crate) fn immerse(points: &[ForcePoint], waters: &[LocalWater], pose: &Pose,
         w.volume += volume;
         w.velocity += water.velocity * (volume * fade);
         w.acceleration += water.acceleration * (volume * fade);
-        let flow = up * water.velocity;
+        w.slope += water.slope * volume;
+        // A hull under way meets the surface rising with its slope as well as with the water.
+        let through = pose.velocity - water.velocity;
+        let rise = Vec3::Y * Vec2::new(through.x, through.z).dot(water.slope);
+        let flow = up * (water.velocity + rise);
         turning += p.position.cross(flow) * volume;
         arm += Vec3::splat(p.position.length_squared()) * volume - p.position * p.position * volume;
     }
     if w.volume > 0.0 {
         w.velocity /= w.volume;
         w.acceleration /= w.volume;
+        w.slope /= w.volume;
         w.spin = (turning / arm.max(Vec3::splat(1.0e-6 * w.volume))).clamp_length_max(20.0);
     }
     w
@@ -149,6 +158,17 @@ fn buoyancy(share: f32, extent: f32, depth: f32, water: &LocalWater) -> (f32, f3
     let (at_top, at_bottom) = (libm::expf(-water.decay * top), libm::expf(-water.decay * bottom));
     let lost = water.height * (at_top - at_bottom) / (2.0 * extent);
     ((share - lost).clamp(0.0, 1.5), 0.5 * (at_top + at_bottom))
+}
+
+/// The axes in which water resists a body: its own, but for a hull afloat the upward one is the surface's normal, so that
+/// running along a wave's face is no heave. `blunt` bodies have no way to run and keep their own.
+pub(crate) fn resistance_axes(rotation: Mat3, slope: Vec2, blunt: bool) -> Mat3 {
+    let normal = Vec3::new(-slope.x, 1.0, -slope.y).normalize();
+    if blunt || rotation.y_axis.dot(normal) < 0.7 {
+        return rotation;
+    }
+    let side = rotation.x_axis.cross(normal).normalize_or(rotation.z_axis);
+    Mat3::from_cols(normal.cross(side), normal, side)
 }
 
 /// Weight in N.
