@@ -84,13 +84,17 @@ fn default_modes() -> &'static [ocean_spectrum::CascadeModes] {
 
 #[test]
 fn the_chop_is_inverted() {
-    for t in [0.0, 5.5, 200.0] {
-        let ocean = default_sea(t);
-        let answers = answers(&ocean, &points(5000, 1500.0));
-        let worst = answers.iter().filter(|a| !a.folded).map(|a| a.residual).fold(0.0, f32::max);
-        assert!(worst <= 1e-3, "{worst}");
-        let folded = answers.iter().filter(|a| a.folded).count();
-        assert!(folded < 50, "{folded}");
+    // Beyond a choppiness of 1 the fixed point alone does not get there.
+    for choppiness in [1.0, 1.5] {
+        let mut ocean = Ocean::new(OceanDesc { choppiness, ..Default::default() }).unwrap();
+        for t in [0.0, 5.5, 200.0] {
+            ocean.set_time(t);
+            let answers = answers(&ocean, &points(5000, 1500.0));
+            let missed = answers.iter().filter(|a| a.residual > 1e-3).count();
+            // Where it folds, there may be no particle near.
+            assert!(missed <= if choppiness > 1.0 { 2 } else { 0 }, "{choppiness}, {t}: {missed}");
+            assert!(answers.iter().all(|a| a.folded || a.residual <= 1e-3));
+        }
     }
 }
 
