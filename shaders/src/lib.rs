@@ -4,6 +4,7 @@
 //! its list of passes. [`ALL`] lists every pass, so that one test validates every shader and checks every struct's
 //! offsets. *When* a pass runs is not decided here.
 
+pub mod cubic;
 pub mod grid;
 pub mod layout;
 pub mod ocean;

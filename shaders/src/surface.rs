@@ -13,8 +13,16 @@ pub const MAX_CASCADES: usize = 8;
 pub const MAX_GRIDS: usize = 32;
 /// See [`SurfaceTable::hidden_slope`].
 pub const HIDDEN_SLOPE_BIAS: u32 = 6;
-/// Fixed-point rounds that invert the horizontal displacement.
-pub const CHOP_ROUNDS: u32 = 4;
+/// Rounds of `rest <- point - D(rest)` that invert the horizontal displacement D.
+pub const CHOP_FIXED_ROUNDS: u32 = 2;
+/// Rounds of Newton's method after them.
+pub const CHOP_NEWTON_ROUNDS: u32 = 6;
+/// A residual of the inversion that is good enough, metres.
+pub const CHOP_TOLERANCE: f32 = 2e-4;
+/// Compression of the surface below which a Newton step gets no longer: near a fold it would be arbitrarily long.
+pub const CHOP_LEAST_STEP: f32 = 0.1;
+/// Compression of the surface below which slopes get no steeper.
+pub const CHOP_LEAST_SLOPE: f32 = 0.05;
 
 /// A cascade as `surface_at` sees it.
 #[repr(C)]
@@ -94,7 +102,8 @@ pub const PARAMS: &[crate::ParamLayout] = &[
 /// Constants that WGSL shares, and the group index of the composite bind group.
 pub fn constants(group: u32) -> String {
     format!(
-        "const MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst CHOP_ROUNDS: u32 = {CHOP_ROUNDS}u;\nconst HIDDEN_SLOPE_BIAS: f32 = {HIDDEN_SLOPE_BIAS}.0;\n\
+        "const MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst CHOP_FIXED_ROUNDS: u32 = {CHOP_FIXED_ROUNDS}u;\nconst CHOP_NEWTON_ROUNDS: u32 = {CHOP_NEWTON_ROUNDS}u;\n\
+         const CHOP_TOLERANCE: f32 = {CHOP_TOLERANCE};\nconst CHOP_LEAST_STEP: f32 = {CHOP_LEAST_STEP};\nconst CHOP_LEAST_SLOPE: f32 = {CHOP_LEAST_SLOPE};\nconst HIDDEN_SLOPE_BIAS: f32 = {HIDDEN_SLOPE_BIAS}.0;\n\
          @group({group}) @binding(0) var<uniform> surface_table: SurfaceTable;\n\
          @group({group}) @binding(1) var surface_displacement: texture_2d_array<f32>;\n\
          @group({group}) @binding(2) var surface_derivative: texture_2d_array<f32>;\n\

@@ -1,6 +1,7 @@
 //! The cubic (Catmull-Rom) reading of a periodic array: C1, exact at texels. The WGSL side reads with the same weights.
 
 use glam::Vec2;
+use open_water_shaders::cubic::weights;
 
 /// Where a point lies in an array, and the weights of the 16 texels around it.
 pub(crate) struct Taps {
@@ -8,13 +9,6 @@ pub(crate) struct Taps {
     rows: [usize; 4],
     wx: [f32; 4],
     wz: [f32; 4],
-}
-
-/// Weights of the four texels around fraction `t`.
-fn weights(t: f32) -> [f32; 4] {
-    let t2 = t * t;
-    let t3 = t2 * t;
-    [0.5 * (-t3 + 2.0 * t2 - t), 0.5 * (3.0 * t3 - 5.0 * t2 + 2.0), 0.5 * (-3.0 * t3 + 4.0 * t2 + t), 0.5 * (t3 - t2)]
 }
 
 impl Taps {

@@ -41,41 +41,20 @@ fn cascade_texel(index: u32, rest: vec2<f32>) -> Texel {
     return Texel(vec2<i32>(base), x - base);
 }
 
-fn cascade_displacement(index: u32, rest: vec2<f32>) -> vec4<f32> {
-    let at = cascade_texel(index, rest);
-    let mask = i32(surface_table.cascades[index].size) - 1;
-    let wx = cubic_weights(at.fraction.x);
-    let wz = cubic_weights(at.fraction.y);
-    var sum = vec4<f32>(0.0);
-    for (var j = 0; j < 4; j++) {
-        for (var i = 0; i < 4; i++) {
-            let texel = (at.base + vec2<i32>(i - 1, j - 1)) & vec2<i32>(mask);
-            sum += wx[i] * wz[j] * textureLoad(surface_displacement, texel, index, 0);
-        }
-    }
-    return sum;
-}
-
-fn cascade_derivative(index: u32, rest: vec2<f32>) -> vec4<f32> {
-    let at = cascade_texel(index, rest);
-    let mask = i32(surface_table.cascades[index].size) - 1;
-    let wx = cubic_weights(at.fraction.x);
-    let wz = cubic_weights(at.fraction.y);
-    var sum = vec4<f32>(0.0);
-    for (var j = 0; j < 4; j++) {
-        for (var i = 0; i < 4; i++) {
-            let texel = (at.base + vec2<i32>(i - 1, j - 1)) & vec2<i32>(mask);
-            sum += wx[i] * wz[j] * textureLoad(surface_derivative, texel, index, 0);
-        }
-    }
-    return sum;
-}
-
-// Displacement (Dx, h, Dz, dDx/dz) of the ambient sea at a rest point, metres.
-fn ambient_displacement(rest: vec2<f32>) -> vec4<f32> {
+// All cascades of an array at a rest point, by the cubic kernel.
+fn read_cascades(array: texture_2d_array<f32>, rest: vec2<f32>) -> vec4<f32> {
     var sum = vec4<f32>(0.0);
     for (var c = 0u; c < surface_table.cascade_count; c++) {
-        sum += cascade_displacement(c, rest);
+        let at = cascade_texel(c, rest);
+        let mask = vec2<i32>(i32(surface_table.cascades[c].size) - 1);
+        let wx = cubic_weights(at.fraction.x);
+        let wz = cubic_weights(at.fraction.y);
+        for (var j = 0; j < 4; j++) {
+            for (var i = 0; i < 4; i++) {
+                let texel = (at.base + vec2<i32>(i - 1, j - 1)) & mask;
+                sum += wx[i] * wz[j] * textureLoad(array, texel, c, 0);
+            }
+        }
     }
     return sum;
 }
@@ -115,29 +94,51 @@ fn grids_at(point: vec2<f32>) -> vec4<f32> {
     return sum;
 }
 
-// Slope of the ambient sea in world coordinates from (dh/dx, dh/dz, dDx/dx, dDz/dz) and dDx/dz.
-fn world_slope(d: vec4<f32>, cross: f32) -> vec2<f32> {
+// `miss` carried through the inverse of the rest-to-world gradient (1 + grad D), d = (.., .., dDx/dx, dDz/dz). Where the
+// surface is compressed below `least`, it counts as compressed that much, so that the answer stays finite at folds.
+fn uncompress(miss: vec2<f32>, d: vec4<f32>, cross: f32, least: f32) -> vec2<f32> {
     let a = 1.0 + d.z;
     let b = 1.0 + d.w;
-    let jacobian = max(a * b - cross * cross, 0.05);
-    return vec2<f32>(b * d.x - cross * d.y, a * d.y - cross * d.x) / jacobian;
+    return vec2<f32>(b * miss.x - cross * miss.y, a * miss.y - cross * miss.x) / max(a * b - cross * cross, least);
+}
+
+// Slope of the ambient sea in world coordinates from (dh/dx, dh/dz, dDx/dx, dDz/dz) and dDx/dz.
+fn world_slope(d: vec4<f32>, cross: f32) -> vec2<f32> {
+    return uncompress(d.xy, d, cross, CHOP_LEAST_SLOPE);
+}
+
+// Where the water at a world point comes from: a few fixed-point rounds, then Newton's method, which also gets to the
+// steep places.
+fn rest_of(point: vec2<f32>) -> vec2<f32> {
+    var rest = point;
+    var best = point;
+    var least = 1e30;
+    for (var round = 0u; round <= CHOP_FIXED_ROUNDS + CHOP_NEWTON_ROUNDS; round++) {
+        let d = read_cascades(surface_displacement, rest);
+        let miss = point - rest - d.xz;
+        let residual = length(miss);
+        if residual < least {
+            least = residual;
+            best = rest;
+        }
+        if residual < CHOP_TOLERANCE {
+            break;
+        }
+        var step = miss;
+        if round >= CHOP_FIXED_ROUNDS {
+            step = uncompress(miss, read_cascades(surface_derivative, rest), d.w, CHOP_LEAST_STEP);
+            step *= min(1.0, 4.0 * residual / length(step));
+        }
+        rest += step;
+    }
+    return best;
 }
 
 // The water at a world point (x, z): the horizontal displacement is inverted, the grids added.
 fn surface_at(point: vec2<f32>) -> SurfacePoint {
-    var rest = point;
-    var d = vec4<f32>(0.0);
-    for (var i = 0u; i <= CHOP_ROUNDS; i++) {
-        d = ambient_displacement(rest);
-        if i < CHOP_ROUNDS {
-            rest = point - d.xz;
-        }
-    }
-    var derivative = vec4<f32>(0.0);
-    for (var c = 0u; c < surface_table.cascade_count; c++) {
-        derivative += cascade_derivative(c, rest);
-    }
+    let rest = rest_of(point);
+    let d = read_cascades(surface_displacement, rest);
     let grids = grids_at(point);
-    let slope = world_slope(derivative, d.w) + grids.yz;
+    let slope = world_slope(read_cascades(surface_derivative, rest), d.w) + grids.yz;
     return SurfacePoint(d.y + grids.x, normalize(vec3<f32>(-slope.x, 1.0, -slope.y)), rest);
 }

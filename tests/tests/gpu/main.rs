@@ -4,6 +4,10 @@
 //! command that sets one up.
 
 mod context;
+mod grid_draw;
+mod grid_step;
 mod ocean_fields;
+mod ocean_looks;
 mod readback;
 mod shaders;
+mod surface;

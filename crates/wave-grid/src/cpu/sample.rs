@@ -1,25 +1,9 @@
 //! Reads the drawn field between cells with the cubic kernel of `wgsl/shared/cubic.wgsl`.
 
 use glam::{DVec2, Vec2};
+use open_water_shaders::cubic::{slopes, weights};
 
 use crate::{GridSample, Window, state::State};
-
-/// Catmull-Rom weights of the four points around fraction t.
-fn weights(t: f32) -> [f32; 4] {
-    let (t2, t3) = (t * t, t * t * t);
-    [0.5 * (-t3 + 2.0 * t2 - t), 0.5 * (3.0 * t3 - 5.0 * t2 + 2.0), 0.5 * (-3.0 * t3 + 4.0 * t2 + t), 0.5 * (t3 - t2)]
-}
-
-/// Derivatives of [`weights`].
-fn slopes(t: f32) -> [f32; 4] {
-    let t2 = t * t;
-    [
-        0.5 * (-3.0 * t2 + 4.0 * t - 1.0),
-        0.5 * (9.0 * t2 - 10.0 * t),
-        0.5 * (-9.0 * t2 + 8.0 * t + 1.0),
-        0.5 * (3.0 * t2 - 2.0 * t),
-    ]
-}
 
 /// The state at the end of the last tick at a local point; zero outside and for points that are not finite.
 pub(crate) fn sample(
