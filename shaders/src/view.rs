@@ -10,7 +10,7 @@ pub const SURFACE_GROUP: u32 = 1;
 /// many spacings are left to the shading, since a grid that cannot carry them would swim.
 pub const GRID_FILTER: f32 = 1.5;
 /// Most that the filtered width of a pixel may fall short of its long axis on the water.
-pub const PIXEL_STRETCH: f32 = 6.0;
+pub const PIXEL_STRETCH: f32 = 2.5;
 
 /// The uniform block at group 0, binding 0 of every view pass. Fields are explained in `wgsl/shared/view.wgsl`.
 #[repr(C)]

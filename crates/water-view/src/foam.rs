@@ -44,7 +44,7 @@ pub(crate) fn mips() -> Vec<Vec<u8>> {
     let mut lace: Vec<f32> = (0..n * n)
         .map(|k| {
             let (u, v) = ((k % n) as f32 / n as f32, (k / n) as f32 / n as f32);
-            [(6u32, 1.0f32), (13, 0.7), (29, 0.4), (61, 0.25)]
+            [(7u32, 1.0f32), (15, 0.8), (33, 0.6), (71, 0.4)]
                 .iter()
                 .map(|&(cells, weight)| {
                     let c = cells as f32;

@@ -24,7 +24,7 @@ pub struct Sky {
 impl Default for Sky {
     /// A clear forenoon, the sun 32 degrees high towards -z and a little to +x.
     fn default() -> Self {
-        Self { sun_direction: Vec3::new(0.35, 0.62, -0.95), aerosol: 0.05, visibility: 25_000.0, exposure: 0.55 }
+        Self { sun_direction: Vec3::new(0.35, 0.62, -0.95), aerosol: 0.04, visibility: 25_000.0, exposure: 0.5 }
     }
 }
 
@@ -47,7 +47,7 @@ impl Default for WaterLook {
     /// Open sea, clear blue-green.
     fn default() -> Self {
         Self {
-            scatter: Vec3::new(0.0035, 0.0145, 0.0190),
+            scatter: Vec3::new(0.0050, 0.0230, 0.0330),
             absorption: Vec3::new(0.35, 0.07, 0.045),
             depth: None,
             bed: Vec3::new(0.42, 0.38, 0.28),

@@ -6,25 +6,27 @@ fn foam_cover(amount: f32, rest: vec2<f32>, dx: vec2<f32>, dy: vec2<f32>) -> f32
     }
     let scale = 1.0 / view.foam_size;
     let fine = textureSampleGrad(foam_texture, foam_sampler, rest * scale, dx * scale, dy * scale).x;
-    let turned = vec2<f32>(0.8 * rest.x - 0.6 * rest.y, 0.6 * rest.x + 0.8 * rest.y) * (scale * 0.23);
-    let coarse = textureSampleGrad(foam_texture, foam_sampler, turned, dx * scale * 0.23, dy * scale * 0.23).x;
+    let turned = vec2<f32>(0.8 * rest.x - 0.6 * rest.y, 0.6 * rest.x + 0.8 * rest.y) * (scale * 0.41);
+    let coarse = textureSampleGrad(foam_texture, foam_sampler, turned, dx * scale * 0.41, dy * scale * 0.41).x;
     let pattern = 0.6 * fine + 0.4 * coarse;
     let edge = 1.0 - amount;
-    let sharp = smoothstep(edge - 0.12, edge + 0.25, pattern);
+    let sharp = smoothstep(edge - 0.15, edge + 0.3, pattern) * (0.5 + 0.5 * fine);
     let blur = smoothstep(0.1, 0.7, max(length(dx), length(dy)) * scale);
-    return mix(sharp, amount * amount * (1.5 - 0.5 * amount), blur) * smoothstep(0.0, 0.1, amount);
+    return mix(sharp, 0.75 * amount * amount * (1.5 - 0.5 * amount), blur) * smoothstep(0.0, 0.1, amount);
 }
 
 // Light out of the body of the water: deep scatter, the bed through it, and sun through the crests.
-fn water_body(normal: vec3<f32>, to_eye: vec3<f32>, height: f32) -> vec3<f32> {
+fn water_body(normal: vec3<f32>, to_eye: vec3<f32>, height: f32, bubbles: f32) -> vec3<f32> {
     let down = view.sunlight * (0.95 * max(view.sun.y, 0.0)) + view.skylight;
-    var albedo = view.scatter;
+    // Bubbles under foam scatter what the water lets through.
+    let deep = view.scatter * (1.0 + 5.0 * bubbles);
+    var albedo = deep;
     if view.depth > 0.0 {
         // Down along the refracted sun ray, up along the refracted line of sight.
         let path_up = inverseSqrt(1.0 - (1.0 - to_eye.y * to_eye.y) * 0.5625);
         let path_down = inverseSqrt(1.0 - (1.0 - view.sun.y * view.sun.y) * 0.5625);
         let clear = exp(-view.absorption * max(view.depth + height, 0.0) * (path_up + path_down));
-        albedo = mix(view.scatter, view.bed, clear);
+        albedo = mix(deep, view.bed, clear);
     }
     let through = pow(max(dot(to_eye.xz, -view.sun.xz), 0.0), 3.0) * pow(max(0.5 - 0.5 * dot(normal, view.sun), 0.0), 2.0);
     let crest = clamp(height / max(view.wave_height, 0.05) + 0.35, 0.0, 1.2);
@@ -35,7 +37,8 @@ fn water_body(normal: vec3<f32>, to_eye: vec3<f32>, height: f32) -> vec3<f32> {
 // Radiance that leaves the surface towards the eye: sky and sun reflected by facets of Gaussian slope around the
 // resolved normal, the water's body, foam.
 fn water_radiance(look: SurfaceLook, foam: f32, to_eye: vec3<f32>, height: f32) -> vec3<f32> {
-    let n = look.normal;
+    // A facet seen from behind is hidden by the one in front: turn it until it is seen edge-on.
+    let n = normalize(look.normal + to_eye * max(0.03 - dot(look.normal, to_eye), 0.0));
     // Slope variance along one axis; the floor is the sun's own width and ripples finer than any table.
     let variance = 0.5 * look.roughness + 4e-4;
     let s = sqrt(variance);
@@ -43,22 +46,24 @@ fn water_radiance(look: SurfaceLook, foam: f32, to_eye: vec3<f32>, height: f32) 
     let across = to_eye - n * facing;
     let grazing = max(length(across), 1e-4);
     // Mean slope towards the eye of the facets it sees: s P(a)/g(a), a = cot(angle)/s, with logistic P and its integral g.
-    let a = max(facing / (grazing * s), -6.0);
-    let seen = max(a, 0.0) + log(1.0 + exp(-1.7376 * abs(a))) / 1.7376;
+    let a = facing / (grazing * s);
+    let seen = a + log(1.0 + exp(-1.7376 * a)) / 1.7376;
     let tilt = s / ((1.0 + exp(-1.7376 * a)) * seen);
     let m = normalize(n + across * (tilt / grazing));
     let f = fresnel(dot(m, to_eye));
+    let body = water_body(n, to_eye, height, look.foam);
     var mirror = reflect(-to_eye, m);
-    // A ray that meets the water again takes its colour from low in the sky.
-    mirror.y = max(abs(mirror.y), 0.02);
-    let sky = sky_radiance(mirror);
+    // A ray that meets the water again sees its body and a little of the sky in it.
+    let again = 1.0 - smoothstep(-0.3, 0.1, mirror.y);
+    mirror.y = max(mirror.y, 0.03);
+    let above = sky_radiance(mirror);
+    let sky = mix(above, 0.3 * above + body, 0.8 * again);
     let h = normalize(view.sun + to_eye);
     let hy = max(h.y, 0.05);
     let off = h.xz / hy - n.xz / max(n.y, 0.05);
     let spread = exp(-dot(off, off) / (2.0 * variance)) / (6.2831853 * variance);
     let projected = max(4.0 * hy * hy * hy * hy * grazing * s * seen, 0.02);
     let glitter = view.sunlight * (fresnel(dot(h, to_eye)) * spread / projected * smoothstep(-0.02, 0.05, view.sun.y));
-    let body = water_body(n, to_eye, height);
     let water = mix(body, sky, f) + glitter;
     let lit = view.sunlight * max(0.3 * view.sun.y + 0.7 * dot(n, view.sun), 0.0) + view.skylight;
     return mix(water, lit * (0.75 / 3.14159265), foam);
