@@ -21,6 +21,17 @@ pub(crate) fn shift(state: &mut State, shift: [i64; 2], thickness: usize) {
     }
     let w = thickness;
     let State { phi: [x, z], phi_next: [next_x, next_z], .. } = state;
+    // No step writes phi where no edge of an open cell is: left there, it would come back with the opposite shift.
+    for phi in [&mut *x, &mut *next_x, &mut *z, &mut *next_z] {
+        phi[..nx].fill(0.0);
+        phi.iter_mut().step_by(nx).for_each(|phi| *phi = 0.0);
+    }
+    for phi_x in [&mut *x, &mut *next_x] {
+        phi_x[(nz - 1) * nx..].fill(0.0);
+    }
+    for phi_z in [&mut *z, &mut *next_z] {
+        phi_z.iter_mut().skip(nx - 1).step_by(nx).for_each(|phi| *phi = 0.0);
+    }
     for j in w..nz - w {
         let row = j * nx..(j + 1) * nx;
         for phi_x in [&mut *x, &mut *next_x] {

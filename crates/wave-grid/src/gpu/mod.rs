@@ -54,6 +54,8 @@ struct Grid {
     /// Ticks until it may sleep.
     awake: u32,
     dropped: u64,
+    /// Its place is free for a grid of the same size.
+    removed: bool,
 }
 
 /// Grids of interactive waves on the GPU.
@@ -88,21 +90,20 @@ impl GpuGrids {
     /// As [`crate::WaveGrid::new`], and when there are [`MAX_GRIDS`] already.
     pub fn insert(&mut self, desc: GridDesc) -> Result<GpuGridId, GridError> {
         let stepping = desc.stepping()?;
-        if self.grids.len() >= MAX_GRIDS {
-            return Err(GridError::InvalidValue {
-                field: "grids",
-                value: self.grids.len() as f64 + 1.0,
-                bound: "at most 32 grids",
-            });
+        let count = self.grids.iter().filter(|grid| !grid.removed).count();
+        if count >= MAX_GRIDS {
+            let value = count as f64 + 1.0;
+            return Err(GridError::InvalidValue { field: "grids", value, bound: "at most 32 grids" });
         }
         let torus = desc.cells.map(|n| (n as usize).next_multiple_of(crate::TILE));
-        let base = self.state_vectors();
+        let free = self.grids.iter().position(|grid| grid.removed && grid.torus == torus);
+        let base = free.map_or(self.state_vectors(), |at| self.grids[at].base);
         let bytes = 16 * (u64::from(base) + (torus[0] * torus[1]) as u64);
         if bytes > MAX_STATE_BYTES {
             let bound = "such that all grids together hold at most 8,388,608 cells";
             return Err(GridError::InvalidValue { field: "cells", value: (torus[0] * torus[1]) as f64, bound });
         }
-        self.grids.push(Grid {
+        let grid = Grid {
             place: Place::new(&desc),
             law: FoamLaw::new(desc.wave_speed, desc.cell_size, desc.tick),
             moving: false,
@@ -110,14 +111,29 @@ impl GpuGrids {
             base,
             parity: 0,
             shift: [0; 2],
-            clear: false,
+            // What an earlier grid left there.
+            clear: free.is_some(),
             sources: Vec::new(),
             awake: 0,
             dropped: 0,
+            removed: false,
             stepping,
             desc,
-        });
+        };
+        if let Some(at) = free {
+            self.grids[at] = grid;
+            return Ok(GpuGridId(at));
+        }
+        self.grids.push(grid);
         Ok(GpuGridId(self.grids.len() - 1))
+    }
+
+    /// Removes a grid; its memory is for the next one of its size.
+    pub fn remove(&mut self, id: GpuGridId) {
+        let grid = &mut self.grids[id.0];
+        grid.removed = true;
+        grid.awake = 0;
+        grid.sources.clear();
     }
 
     /// `vec4`s of the heights of all grids.
@@ -287,7 +303,8 @@ impl Grid {
             cells: self.desc.cells,
             torus: self.torus.map(|n| n as u32),
             middle: [x[0] as f32, z[0] as f32],
-            outer: [x[1] as f32, z[1] as f32],
+            // What waits to be cleared is not shown.
+            outer: if self.clear { [-1.0; 2] } else { [x[1] as f32, z[1] as f32] },
             width: self.place.fade_width() as f32,
             alpha,
             now: array(self.parity),

@@ -1,0 +1,178 @@
+//! `grid_prepare` and `grid_step` against the CPU grid: many ticks, moving windows, sources, several grids at once.
+
+use glam::{DVec2, Vec2};
+use wave_grid::gpu::{GpuGridId, GpuGrids};
+use wave_grid::{GridDesc, Scheme, Source, WaveGrid};
+
+use crate::context::Context;
+
+const SENTINEL: [f32; 2] = [1234.5, -4321.0];
+
+/// A grid on both sides.
+struct Pair {
+    cpu: WaveGrid,
+    id: GpuGridId,
+    /// Where it is drawn in the pool; cells around it must stay the sentinel.
+    base: u32,
+}
+
+struct Twins {
+    gpu: GpuGrids,
+    pairs: Vec<Pair>,
+    pool: wgpu::Buffer,
+}
+
+const GAP: u32 = 5;
+
+fn twins(context: &Context, descs: &[GridDesc]) -> Twins {
+    let mut gpu = GpuGrids::new(&context.device);
+    let mut base = GAP;
+    let pairs: Vec<Pair> = descs
+        .iter()
+        .map(|desc| {
+            let pair = Pair { cpu: WaveGrid::new(*desc).unwrap(), id: gpu.insert(*desc).unwrap(), base };
+            base += desc.cells[0] * desc.cells[1] + GAP;
+            pair
+        })
+        .collect();
+    Twins { gpu, pairs, pool: context.buffer(&vec![SENTINEL; base as usize]) }
+}
+
+impl Twins {
+    fn add(&mut self, k: usize, source: Source) {
+        assert_eq!(self.pairs[k].cpu.add(source), self.gpu.add(self.pairs[k].id, source));
+    }
+
+    fn center_on(&mut self, k: usize, target: DVec2) {
+        self.pairs[k].cpu.center_on(target);
+        self.gpu.center_on(self.pairs[k].id, target);
+        assert_eq!(self.pairs[k].cpu.window(), self.gpu.window(self.pairs[k].id));
+    }
+
+    fn tick(&mut self) {
+        for pair in &mut self.pairs {
+            pair.cpu.tick();
+        }
+        assert!(self.gpu.tick());
+    }
+
+    fn encode(&mut self, context: &Context) {
+        context.submit(|encoder| self.gpu.encode(&context.device, &context.queue, encoder));
+    }
+
+    /// Largest difference of each grid's drawn heights and foam, and the largest height.
+    fn compare(&mut self, context: &Context, alpha: f32) -> Vec<[f32; 3]> {
+        let cells: u32 = (self.pool.size() / 8) as u32;
+        context.queue.write_buffer(&self.pool, 0, bytemuck::cast_slice(&vec![SENTINEL; cells as usize]));
+        let draws: Vec<_> = self.pairs.iter().map(|p| (p.id, p.base)).collect();
+        context.submit(|encoder| {
+            self.gpu.encode_draw(&context.device, &context.queue, encoder, &self.pool, &draws, alpha);
+        });
+        let pool: Vec<[f32; 2]> = context.read(&self.pool);
+        let mut expected = vec![SENTINEL; pool.len()];
+        let mut worst = Vec::new();
+        for pair in &self.pairs {
+            let count = pair.cpu.heights().len();
+            let range = pair.base as usize..pair.base as usize + count;
+            pair.cpu.draw(alpha, &mut expected[range.clone()]);
+            let mut most = [0.0f32; 3];
+            for (gpu, cpu) in pool[range.clone()].iter().zip(&expected[range]) {
+                assert!(gpu[0].is_finite() && (0.0..=1.0).contains(&gpu[1]), "{gpu:?}");
+                most[0] = most[0].max((gpu[0] - cpu[0]).abs());
+                most[1] = most[1].max((gpu[1] - cpu[1]).abs());
+                most[2] = most[2].max(cpu[0].abs());
+            }
+            worst.push(most);
+        }
+        for gap in std::iter::once(0).chain(self.pairs.iter().map(|p| p.base as usize + p.cpu.heights().len())) {
+            assert_eq!(pool[gap..gap + GAP as usize], [SENTINEL; GAP as usize], "cells beside a grid were written");
+        }
+        worst
+    }
+}
+
+fn stone(x: f32, z: f32, radius: f32, volume: f32) -> Source {
+    Source::Displacement { center: Vec2::new(x, z), radius, volume }
+}
+
+#[test]
+fn a_thousand_ticks_equal_the_cpu() {
+    let context = Context::new();
+    let descs = [
+        GridDesc { cells: [128, 128], wave_speed: 25.0, ..Default::default() },
+        // Not a multiple of 16, a damped 5-point scheme with several sub-steps, the widest layer.
+        GridDesc {
+            cells: [150, 101],
+            wave_speed: 40.0,
+            scheme: Scheme::FivePoint,
+            pml_width: 16,
+            damping: 0.1,
+            ..Default::default()
+        },
+        GridDesc { cells: [96, 112], wave_speed: 45.0, pml_width: 8, ..Default::default() },
+    ];
+    let mut twins = twins(&context, &descs);
+    let mut peak = [0.0f32; 3];
+    for t in 0..1000 {
+        let time = f64::from(t) / 60.0;
+        // The second stands still, so its static profile is compared too; the third rushes about, with a teleport.
+        twins.center_on(0, DVec2::new(9.0 * time, 20.0 * (0.3 * time).sin()));
+        if t == 500 {
+            twins.center_on(2, DVec2::new(1e5, 1e5));
+        }
+        twins.center_on(2, DVec2::new(if t < 500 { -80.0 } else { 60.0 } * time, 40.0 * time));
+        for k in 0..3 {
+            let middle = twins.pairs[k].cpu.window().world_corner()
+                + DVec2::new(f64::from(descs[k].cells[0]), f64::from(descs[k].cells[1])) * 0.25;
+            let [x, z] = middle.as_vec2().to_array();
+            let wobble = (t as f32 * 0.1).sin();
+            twins.add(k, stone(x + 3.0 * wobble, z, 1.0 + 0.5 * wobble, 0.4 * (t as f32 * 0.23).sin()));
+            if t % 7 == 0 {
+                twins.add(k, Source::Turbulence { center: Vec2::new(x - 4.0, z + 1.0), radius: 1.5, foam: 0.3 });
+            }
+        }
+        twins.tick();
+        if t % 4 == 3 {
+            twins.encode(&context);
+        }
+        if t % 100 == 99 {
+            for (k, [height, foam, most]) in
+                twins.compare(&context, if t == 999 { 1.0 } else { 0.3 }).iter().enumerate()
+            {
+                peak[k] = peak[k].max(*most);
+                println!("tick {t} grid {k}: height {height:e} of {most}, foam {foam:e}");
+                assert!(*height <= 2e-5 * peak[k] && *foam < 1e-3, "tick {t} grid {k}: {height} of {most}, {foam}");
+            }
+        }
+    }
+    assert!(peak.iter().all(|p| *p > 0.05), "{peak:?}");
+}
+
+#[test]
+fn growing_keeps_the_waves_and_sleep_clears_them() {
+    let context = Context::new();
+    let small = GridDesc { cells: [64, 64], wave_speed: 80.0, cell_size: 2.0, tick: 0.25, ..Default::default() };
+    let mut twins = twins(&context, &[small]);
+    twins.add(0, stone(0.0, 0.0, 8.0, 500.0));
+    for _ in 0..2 {
+        twins.tick();
+    }
+    twins.encode(&context);
+    let other = twins.gpu.insert(small).unwrap();
+    twins.tick();
+    twins.encode(&context);
+    let [height, _, most] = twins.compare(&context, 1.0)[0];
+    assert!(most > 0.01 && height <= 1e-5 * most, "{height} of {most}");
+    assert!(twins.gpu.is_asleep(other));
+    let mut ticks = 0;
+    while !twins.gpu.is_asleep(twins.pairs[0].id) {
+        twins.tick();
+        twins.encode(&context);
+        ticks += 1;
+        assert!(ticks < 400);
+    }
+    twins.tick();
+    assert_eq!(twins.gpu.pending_dispatches(), 0, "a sleeping grid encodes nothing");
+    let [height, foam, most] = twins.compare(&context, 0.5)[0];
+    assert!(height <= 1e-5 && foam <= 1e-3 && most <= 1e-5);
+}
