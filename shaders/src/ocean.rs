@@ -1,8 +1,10 @@
 //! Passes of the ocean: modes to fields to looks.
 //!
-//! A synthesis is two dispatches over all cascades and spectra: `ocean_rows` (the spectra at one time and their
-//! transforms along x) and `ocean_columns` (the transforms along z, into the textures). `ocean_looks` and `ocean_mips`
-//! make filtered half-float copies with foam, for what only looks.
+//! A synthesis transforms all cascades and spectra at once, along x, then along z. Where workgroup memory is fast that
+//! takes two dispatches, `ocean_rows` and `ocean_columns`. On a CPU adapter (lavapipe) a read from a buffer or from
+//! workgroup memory costs ten times one from a texture: there each stage is a dispatch from texture to texture,
+//! `ocean_first` and `ocean_stage`. `ocean_looks` and `ocean_mips` make filtered half-float copies with foam, for what
+//! only looks.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -19,8 +21,6 @@ pub const FFT_POINTS: u32 = 16;
 pub const FFT_BLOCK: u32 = 1024;
 /// Invocations of a transform's workgroup.
 pub const FFT_THREADS: u32 = FFT_BLOCK / FFT_POINTS;
-/// Elements by which rows of the half-done spectra are longer than a cascade: keeps a column off one cache set.
-pub const FFT_PADDING: u32 = 8;
 
 /// A cascade as the ocean's passes see it.
 #[repr(C)]
@@ -69,12 +69,31 @@ fn unrolled(signature: &str, statement: &str) -> String {
     format!("fn {signature} {{\n{body}}}\n")
 }
 
-fn fft_constants() -> String {
+fn constants() -> String {
+    format!("const OCEAN_CASCADES: u32 = {MAX_CASCADES}u;\n")
+}
+
+fn stage_constants() -> String {
     [
-        format!("const OCEAN_CASCADES: u32 = {MAX_CASCADES}u;\n"),
-        format!("const BLOCK: u32 = {FFT_BLOCK}u;\nconst THREADS: u32 = {FFT_THREADS}u;\n"),
-        format!("override PITCH: u32 = N + {FFT_PADDING}u;\n"),
+        constants(),
+        format!("const THREADS: u32 = {FFT_THREADS}u;\n"),
         turns::constants(),
+        unrolled(
+            "points_fetch(v: ptr<function, Points>, place: Place, t: u32)",
+            "(*v)[{e}] = fetch(place, t + {e}u * THREADS_PER_LINE)",
+        ),
+        unrolled(
+            "points_emit(v: ptr<function, Points>, place: Place, first: u32, step: u32)",
+            "emit(place, first + {e}u * step, (*v)[{e}])",
+        ),
+    ]
+    .concat()
+}
+
+fn line_constants() -> String {
+    [
+        stage_constants(),
+        format!("const BLOCK: u32 = {FFT_BLOCK}u;\n"),
         unrolled(
             "points_load(v: ptr<function, Points>, line: u32, t: u32)",
             "(*v)[{e}] = line_points[line_index(line, t + {e}u * THREADS_PER_LINE)]",
@@ -83,48 +102,60 @@ fn fft_constants() -> String {
             "points_store(v: ptr<function, Points>, line: u32, first: u32, step: u32)",
             "line_points[line_index(line, first + {e}u * step)] = (*v)[{e}]",
         ),
-        unrolled(
-            "points_fetch(v: ptr<function, Points>, place: Place, t: u32)",
-            "(*v)[{e}] = fetch(place, t + {e}u * THREADS_PER_LINE)",
-        ),
-        unrolled(
-            "points_emit(v: ptr<function, Points>, place: Place, t: u32)",
-            "emit(place, t + {e}u * THREADS_PER_LINE, (*v)[{e}])",
-        ),
     ]
     .concat()
 }
 
-const FFT_TEXT: &str = concat!(
+const STAGE_TEXT: &str = concat!(
     include_str!("../wgsl/shared/turns.wgsl"),
     include_str!("../wgsl/shared/ocean.wgsl"),
     include_str!("../wgsl/shared/fft.wgsl"),
     include_str!("../wgsl/shared/fft_last.wgsl"),
-    include_str!("../wgsl/shared/fft_lines.wgsl"),
+    include_str!("../wgsl/shared/fft_stage.wgsl"),
 );
+const LINE_TEXT: &str = include_str!("../wgsl/shared/fft_lines.wgsl");
+const MODES_TEXT: &str = include_str!("../wgsl/shared/ocean_modes.wgsl");
 
 /// The spectra at one time and their transforms along x.
 pub const ROWS: Pass = Pass {
     name: "ocean_rows",
-    constants: fft_constants,
-    parts: &[FFT_TEXT, include_str!("../wgsl/ocean_rows.wgsl")],
+    constants: line_constants,
+    parts: &[STAGE_TEXT, LINE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_rows.wgsl")],
     entry_points: &["ocean_rows"],
     params: PARAMS,
 };
 
-/// The transforms along z, into the textures.
+/// The transforms along z.
 pub const COLUMNS: Pass = Pass {
     name: "ocean_columns",
-    constants: fft_constants,
-    parts: &[FFT_TEXT, include_str!("../wgsl/ocean_columns.wgsl")],
+    constants: line_constants,
+    parts: &[STAGE_TEXT, LINE_TEXT, include_str!("../wgsl/ocean_columns.wgsl")],
     entry_points: &["ocean_columns"],
+    params: PARAMS,
+};
+
+/// The spectra at one time and the first stage of their transforms along x.
+pub const FIRST: Pass = Pass {
+    name: "ocean_first",
+    constants: stage_constants,
+    parts: &[STAGE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_first.wgsl")],
+    entry_points: &["ocean_first"],
+    params: PARAMS,
+};
+
+/// One more stage of the transforms along x or z.
+pub const STAGE: Pass = Pass {
+    name: "ocean_stage",
+    constants: stage_constants,
+    parts: &[STAGE_TEXT, include_str!("../wgsl/ocean_stage.wgsl")],
+    entry_points: &["ocean_stage"],
     params: PARAMS,
 };
 
 /// Half-float looks with foam, mip levels 0 to 3.
 pub const LOOKS: Pass = Pass {
     name: "ocean_looks",
-    constants: || format!("const OCEAN_CASCADES: u32 = {MAX_CASCADES}u;\n"),
+    constants,
     parts: &[
         include_str!("../wgsl/shared/ocean.wgsl"),
         include_str!("../wgsl/shared/mips.wgsl"),
@@ -144,4 +175,4 @@ pub const MIPS: Pass = Pass {
 };
 
 /// The passes of this area.
-pub const PASSES: &[Pass] = &[ROWS, COLUMNS, LOOKS, MIPS];
+pub const PASSES: &[Pass] = &[ROWS, COLUMNS, FIRST, STAGE, LOOKS, MIPS];

@@ -32,6 +32,8 @@ pub enum Slot {
         /// Whether a filtering sampler may read it (never true for 32-bit floats).
         filterable: bool,
     },
+    /// A sampled texture array of unsigned integers.
+    UintTextureArray,
     /// A sampled float texture.
     Texture {
         /// Whether a filtering sampler may read it (never true for 32-bit floats).
@@ -53,18 +55,20 @@ impl Slot {
             has_dynamic_offset,
             min_binding_size: NonZeroU64::new(size as u64),
         };
-        let texture = |filterable, view_dimension| wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable },
+        let texture = |sample_type, view_dimension| wgpu::BindingType::Texture {
+            sample_type,
             view_dimension,
             multisampled: false,
         };
+        let float = |filterable| wgpu::TextureSampleType::Float { filterable };
         match self {
             Slot::Uniform { size } => buffer(wgpu::BufferBindingType::Uniform, false, size),
             Slot::DynamicUniform { size } => buffer(wgpu::BufferBindingType::Uniform, true, size),
             Slot::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }, false, 0),
             Slot::ReadWrite => buffer(wgpu::BufferBindingType::Storage { read_only: false }, false, 0),
-            Slot::TextureArray { filterable } => texture(filterable, wgpu::TextureViewDimension::D2Array),
-            Slot::Texture { filterable } => texture(filterable, wgpu::TextureViewDimension::D2),
+            Slot::TextureArray { filterable } => texture(float(filterable), wgpu::TextureViewDimension::D2Array),
+            Slot::UintTextureArray => texture(wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D2Array),
+            Slot::Texture { filterable } => texture(float(filterable), wgpu::TextureViewDimension::D2),
             Slot::WriteTextureArray { format } => wgpu::BindingType::StorageTexture {
                 access: wgpu::StorageTextureAccess::WriteOnly,
                 format,

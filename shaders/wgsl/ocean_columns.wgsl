@@ -1,19 +1,18 @@
-// Transforms along z: the fields, straight into the textures. One workgroup: LINES neighbouring columns of one layer.
+// The whole transforms along z: the fields. One workgroup: LINES neighbouring columns of one layer.
 @group(0) @binding(0) var<uniform> ocean: OceanParams;
-@group(0) @binding(1) var<storage, read> half_done: array<vec4<f32>>;
-// Displacement layers, then derivative layers.
-@group(0) @binding(2) var fields: texture_storage_2d_array<rgba32float, write>;
+@group(0) @binding(1) var input: texture_2d_array<f32>;
+@group(0) @binding(2) var output: texture_storage_2d_array<rgba32float, write>;
 
 fn line_index(line: u32, i: u32) -> u32 {
     return swizzle(i) * LINES + line;
 }
 
 fn fetch(place: Place, i: u32) -> vec4<f32> {
-    return half_done[(place.layer * N + i) * PITCH + place.line];
+    return textureLoad(input, vec2<u32>(place.line, i), place.layer, 0);
 }
 
 fn emit(place: Place, i: u32, value: vec4<f32>) {
-    textureStore(fields, vec2<u32>(place.line, i), place.layer, value);
+    textureStore(output, vec2<u32>(place.line, i), place.layer, value);
 }
 
 @compute @workgroup_size(THREADS)
@@ -25,5 +24,5 @@ fn ocean_columns(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
     var v: Points;
     points_fetch(&v, place, t);
     transform(&v, line, t);
-    points_emit(&v, place, t);
+    points_emit(&v, place, t, THREADS_PER_LINE);
 }

@@ -6,6 +6,7 @@
 mod error;
 mod foam;
 mod looks;
+mod modes;
 mod synthesis;
 mod upload;
 
@@ -15,6 +16,7 @@ use crate::Ocean;
 pub use error::GpuError;
 pub use foam::{FOAM_SECONDS, FOAM_THRESHOLD};
 use looks::Looks;
+pub use synthesis::FftKernel;
 use synthesis::Synthesis;
 use upload::Shape;
 
@@ -33,17 +35,25 @@ pub struct GpuOcean {
 }
 
 impl GpuOcean {
-    /// Uploads the modes and makes textures and pipelines.
+    /// Makes textures and pipelines, and takes over the modes.
     ///
     /// # Errors
     /// [`GpuError::InvalidValue`] if the cascades differ in size, or need more than the device's limits allow.
     pub fn new(device: &wgpu::Device, ocean: &Ocean) -> Result<Self, GpuError> {
+        Self::with_kernel(device, ocean, FftKernel::of(device))
+    }
+
+    /// As [`Self::new`], with transforms of one's own choice.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_kernel(device: &wgpu::Device, ocean: &Ocean, kernel: FftKernel) -> Result<Self, GpuError> {
         let shape = Shape::of(ocean)?;
         shape.check(&device.limits())?;
         let params = upload::params(ocean);
         let params_buffer =
             upload::buffer(device, "ocean params", bytemuck::bytes_of(&params), wgpu::BufferUsages::UNIFORM);
-        let synthesis = Synthesis::new(device, shape, ocean, &params_buffer);
+        let synthesis = Synthesis::new(device, kernel, shape, ocean, &params_buffer);
         let looks = Looks::new(device, shape, &params_buffer, &synthesis.fields);
         Ok(Self { shape, params, params_buffer, synthesis, looks })
     }
@@ -52,22 +62,23 @@ impl GpuOcean {
     ///
     /// # Errors
     /// [`GpuError::InvalidValue`] if number or size of the cascades changed: make a new one then.
-    pub fn reload(&mut self, queue: &wgpu::Queue, ocean: &Ocean) -> Result<(), GpuError> {
+    pub fn reload(&mut self, ocean: &Ocean) -> Result<(), GpuError> {
         self.shape.check_same(Shape::of(ocean)?)?;
         self.params = upload::params(ocean);
-        self.synthesis.upload(queue, ocean);
+        self.synthesis.modes.set(ocean);
         Ok(())
     }
 
     /// Sets the time for the work that is encoded next: `phase` from [`Ocean::phase_at`], and the seconds since the
-    /// last looks, by which foam fades (not finite or negative: 0). It holds for everything up to the next submit.
+    /// last looks, by which foam fades (not finite or negative: 0). A changed sea is uploaded here. It holds for everything up to the next submit.
     pub fn set_time(&mut self, queue: &wgpu::Queue, phase: u32, foam_dt: f32) {
+        self.synthesis.modes.flush(queue);
         self.params.phase = phase;
         self.params.foam_decay = foam::decay(foam_dt);
         queue.write_buffer(&self.params_buffer, 0, bytemuck::bytes_of(&self.params));
     }
 
-    /// Records the synthesis of the fields: [`Self::FIELD_DISPATCHES`] dispatches.
+    /// Records the synthesis of the fields: [`Self::field_dispatches`] dispatches.
     pub fn record_fields(&self, pass: &mut wgpu::ComputePass<'_>) {
         self.synthesis.record(pass, self.shape);
     }
@@ -95,7 +106,9 @@ impl GpuOcean {
     }
 
     /// Dispatches of [`Self::record_fields`].
-    pub const FIELD_DISPATCHES: u32 = synthesis::DISPATCHES;
+    pub fn field_dispatches(&self) -> u32 {
+        self.synthesis.dispatches()
+    }
 
     /// Dispatches of [`Self::record_looks`].
     pub fn look_dispatches(&self) -> u32 {

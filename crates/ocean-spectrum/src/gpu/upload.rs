@@ -1,6 +1,6 @@
 //! Shape, parameters and buffers of a sea on the GPU.
 
-use open_water_shaders::ocean::{FFT_BLOCK, FFT_PADDING, FFT_THREADS, OceanParams};
+use open_water_shaders::ocean::{FFT_BLOCK, FFT_THREADS, OceanParams};
 
 use super::error::{GpuError, at_most, equal};
 use super::foam;
@@ -27,14 +27,15 @@ impl Shape {
         2 * self.count
     }
 
-    /// Bytes of the spectra between the two passes.
-    pub(super) fn half_done_bytes(self) -> u64 {
-        16 * u64::from(self.layers()) * u64::from(self.size) * u64::from(self.size + FFT_PADDING)
+    /// Size of a texture with so many layers.
+    pub(super) fn extent(self, depth_or_array_layers: u32) -> wgpu::Extent3d {
+        wgpu::Extent3d { width: self.size, height: self.size, depth_or_array_layers }
     }
 
     pub(super) fn check(self, limits: &wgpu::Limits) -> Result<(), GpuError> {
+        let foam = 4 * u64::from(self.count) * u64::from(self.size).pow(2);
         let binding = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-        at_most("bytes of half-done spectra", self.half_done_bytes(), binding)?;
+        at_most("bytes of foam", foam, binding)?;
         at_most("texels per side", self.size.into(), limits.max_texture_dimension_2d.into())?;
         at_most("texture layers", self.layers().into(), limits.max_texture_array_layers.into())?;
         let memory = limits.max_compute_workgroup_storage_size;
@@ -86,7 +87,7 @@ pub(super) fn texture(
 ) -> (wgpu::Texture, [wgpu::TextureView; 2]) {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d { width: shape.size, height: shape.size, depth_or_array_layers: shape.layers() },
+        size: shape.extent(shape.layers()),
         mip_level_count,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
