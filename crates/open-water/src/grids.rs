@@ -23,7 +23,7 @@ pub(crate) struct Grid {
 pub(crate) enum Sim {
     Cpu(Box<WaveGrid>),
     #[cfg(feature = "gpu")]
-    Gpu(crate::gpu::grids::RemoteGrid),
+    Gpu(Box<crate::gpu::grids::RemoteGrid>),
 }
 
 impl Grid {
@@ -65,8 +65,9 @@ impl Grid {
     fn tick(&mut self) {
         match &mut self.sim {
             Sim::Cpu(grid) => grid.tick(),
+            // All of these tick at once: see `RemoteGrids::tick`.
             #[cfg(feature = "gpu")]
-            Sim::Gpu(grid) => grid.tick(),
+            Sim::Gpu(_) => {}
         }
     }
 
@@ -107,6 +108,11 @@ pub(crate) struct Grids {
 impl Grids {
     pub(crate) fn iter(&self) -> std::slice::Iter<'_, Grid> {
         self.list.iter()
+    }
+
+    #[cfg(feature = "gpu")]
+    pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Grid> {
+        self.list.iter_mut()
     }
 
     pub(crate) fn get(&self, id: GridId) -> Result<&Grid, OpenWaterError> {

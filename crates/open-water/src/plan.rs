@@ -25,8 +25,8 @@ pub enum Work {
     },
     /// All awake GPU-homed grids are stepped.
     GridSteps {
-        /// Sub-steps of the ticks since the last frame.
-        steps: u32,
+        /// Dispatches of the ticks since the last frame.
+        dispatches: u32,
     },
     /// All awake GPU-homed grids' heights at alpha go to the pool.
     GridDraw {
@@ -124,7 +124,7 @@ impl fmt::Display for FramePlan {
                 Work::Ocean { cascades } => write!(f, "\n+ ocean, {cascades} cascades")?,
                 Work::OceanLooks => write!(f, "\n+ mips and foam")?,
                 Work::GridUpload { bytes, .. } => write!(f, "\n+ grid up, {} KiB", bytes / 1024)?,
-                Work::GridSteps { steps } => write!(f, "\n+ grid steps, {steps}")?,
+                Work::GridSteps { dispatches } => write!(f, "\n+ grid steps, {dispatches} dispatches")?,
                 Work::GridDraw { grids } => write!(f, "\n+ grids drawn, {grids}")?,
                 Work::Table => {}
             }

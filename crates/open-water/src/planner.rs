@@ -38,7 +38,7 @@ impl OpenWater {
             plan_grid(&facts, &mut plan, grid, nobody);
         }
         #[cfg(feature = "gpu")]
-        self.plan_remote(&mut plan, nobody);
+        self.plan_remote(&mut plan);
         let awake = self.grids.iter().filter(|grid| grid.is_awake()).count();
         if facts.present && !nobody && (!plan.work.is_empty() || awake != facts.shown.listed) {
             plan.work.insert(0, Work::Table);

@@ -124,7 +124,10 @@ impl OpenWater {
         let sim = match desc.home {
             GridHome::Cpu => Sim::Cpu(Box::new(WaveGrid::new(grid)?)),
             #[cfg(feature = "gpu")]
-            GridHome::Gpu => Sim::Gpu(self.gpu.as_mut().ok_or(OpenWaterError::NoGpu)?.remote.add(grid)?),
+            GridHome::Gpu => {
+                let gpu = self.gpu.as_mut().ok_or(OpenWaterError::NoGpu)?;
+                Sim::Gpu(Box::new(gpu.remote.add(grid)?))
+            }
             #[cfg(not(feature = "gpu"))]
             GridHome::Gpu => return Err(OpenWaterError::NoGpu),
         };
@@ -141,9 +144,12 @@ impl OpenWater {
     /// # Errors
     /// There is no such grid.
     pub fn remove_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
-        self.grids.remove(id)?;
+        let _removed = self.grids.remove(id)?;
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
+            if let Sim::Gpu(grid) = _removed.sim {
+                gpu.remote.remove(grid.id);
+            }
             gpu.resize_pool(self.grids.pool_cells());
         }
         Ok(())
@@ -186,6 +192,10 @@ impl OpenWater {
         }
         let bodies = &self.bodies;
         self.grids.tick(|id| bodies.place_of(id));
+        #[cfg(feature = "gpu")]
+        if let Some(gpu) = &mut self.gpu {
+            gpu.remote.tick(&mut self.grids);
+        }
         self.tick = tick.index;
         if let Some(ocean) = &mut self.ocean {
             ocean.set_time(tick.time());

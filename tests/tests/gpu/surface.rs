@@ -2,8 +2,8 @@
 
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyId, BodyState, BodyStates, Consumers, Controls, Follow, FramePlan, GridDesc, Hull, OpenWater,
-    OpenWaterDesc, Preset, Reason, SkippedWork, View, WaterSample, Work,
+    BodyDesc, BodyId, BodyState, BodyStates, Consumers, Controls, Follow, FramePlan, GridDesc, GridHome, Hull,
+    OpenWater, OpenWaterDesc, Preset, Radiation, Reason, SkippedWork, View, WaterSample, Work,
 };
 use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_layout};
 use open_water_shaders::surface;
@@ -40,7 +40,9 @@ fn scene(context: Option<&Context>, desc: OpenWaterDesc) -> Scene {
     let boat = water.add_body(BodyDesc::boat(&hull, 4_000.0, 10.0)).unwrap();
     store.insert(boat, water.body(boat).unwrap().state());
     water.set_controls(boat, Controls { throttle: 0.8, steering: 0.5, ..Controls::default() }).unwrap();
-    water.add_grid(GridDesc { follow: Follow::Body(boat), cells: [128; 2], pml_width: 8, ..GridDesc::default() }).unwrap();
+    water
+        .add_grid(GridDesc { follow: Follow::Body(boat), cells: [128; 2], pml_width: 8, ..GridDesc::default() })
+        .unwrap();
     let float = Hull::cuboid(Vec3::splat(0.6)).unwrap();
     for i in 0..8 {
         let id = water.add_body(BodyDesc::from_hull(&float, 100.0)).unwrap();
@@ -71,8 +73,7 @@ fn probe(context: &Context, water: &OpenWater, points: &[Vec2]) -> Vec<[f32; 4]>
     let pipeline = compute_pipeline(device, pass, "surface_probe", &[water.surface_layout().unwrap(), &layout], &[]);
     let input = context.buffer(points);
     let output = context.buffer(&vec![[SENTINEL; 4]; points.len()]);
-    let group =
-        bind_group(device, "probe", &layout, &[input.as_entire_binding(), output.as_entire_binding()]);
+    let group = bind_group(device, "probe", &layout, &[input.as_entire_binding(), output.as_entire_binding()]);
     context.submit(|encoder| {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
@@ -194,4 +195,49 @@ fn wild_frames_leave_no_validation_error() {
     let found = probe(&context, &scene.water, &points(around)[..500]);
     assert!(found.iter().flatten().all(|v| v.is_finite() && *v != SENTINEL));
     assert_eq!(context.take_errors(), Vec::<String>::new());
+}
+
+#[test]
+fn a_grid_homed_on_the_gpu_comes_back_with_its_age() {
+    let context = Context::new();
+    let run = |home: GridHome| {
+        let water = OpenWater::new(&context.device, &context.queue, calm()).unwrap();
+        let mut scene = Scene { water, store: BodyStates::default(), boat: BodyId::default() };
+        let desc = GridDesc { home, cells: [96; 2], pml_width: 8, ..GridDesc::default() };
+        let grid = scene.water.add_grid(desc).unwrap();
+        let hull = Hull::cuboid(Vec3::splat(1.0)).unwrap();
+        let body = BodyDesc { radiation: Radiation::Coefficients, ..BodyDesc::from_hull(&hull, 500.0) };
+        let dropped = scene.water.add_body(body).unwrap();
+        scene.store.insert(dropped, BodyState::at_rest(Vec3::new(0.0, 0.8, 0.0)));
+        for _ in 0..40 {
+            scene.frame(Some(&context), DT, Consumers::empty());
+        }
+        let age = scene.water.grid_age(grid).unwrap();
+        scene.frame(None, DT, Consumers::empty());
+        let mut plan = scene.water.plan(&view(), Consumers::empty());
+        plan.alpha = 1.0;
+        context.submit(|encoder| scene.water.encode(&plan, encoder));
+        let points: Vec<Vec2> = (0..200).map(|i| Vec2::from_angle(i as f32) * (0.6 + 0.015 * i as f32)).collect();
+        let drawn: Vec<f32> = probe(&context, &scene.water, &points).iter().map(|f| f[0]).collect();
+        // Lets the last copy arrive.
+        for tick in scene.water.advance(DT) {
+            scene.water.tick(tick, &mut scene.store).unwrap();
+        }
+        let mut sampled = vec![WaterSample::default(); points.len()];
+        scene.water.sample(&points, &mut sampled);
+        scene.water.remove_grid(grid).unwrap();
+        scene.frame(Some(&context), DT, Consumers::empty());
+        (age, drawn, sampled.iter().map(|s| s.height).collect::<Vec<_>>())
+    };
+    let rms =
+        |a: &[f32], b: &[f32]| (a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f32>() / a.len() as f32).sqrt();
+    let (age, on_cpu, _) = run(GridHome::Cpu);
+    assert_eq!(age, Some(0));
+    let (age, on_gpu, back) = run(GridHome::Gpu);
+    assert!(matches!(age, Some(1..=4)), "{age:?}");
+    let size = rms(&on_cpu, &vec![0.0; on_cpu.len()]);
+    assert!(size > 0.002, "no waves: {size} m");
+    // The float does not feel its own waves, so it moves alike and makes the same ones.
+    assert!(rms(&on_gpu, &on_cpu) < 1e-3 * size, "{} of {size}", rms(&on_gpu, &on_cpu));
+    assert!(rms(&on_gpu, &back) < 1e-5, "{} of {size}", rms(&on_gpu, &back));
 }

@@ -1,7 +1,6 @@
 //! Turns a [`FramePlan`] into uploads and dispatches: the only place that does.
 
 use ocean_spectrum::Ocean;
-use ocean_spectrum::gpu::GpuOcean;
 
 use super::Gpu;
 use crate::grids::{Grids, Sim};
@@ -35,7 +34,10 @@ impl Gpu {
                 }
                 // Recorded with the ocean, in the same compute pass.
                 Work::OceanLooks => {}
-                Work::GridSteps { .. } | Work::GridDraw { .. } => {}
+                Work::GridSteps { .. } => self.remote.encode_steps(&self.queue, encoder),
+                Work::GridDraw { .. } => {
+                    self.remote.encode_draw(&self.queue, encoder, self.surface.pool(), plan, grids);
+                }
             }
         }
     }
@@ -67,6 +69,6 @@ impl Gpu {
 
     /// Dispatches of the sea's fields, and of its looks.
     pub(crate) fn ocean_dispatches(&self) -> (u32, u32) {
-        self.ocean.as_ref().map_or((0, 0), |ocean| (GpuOcean::FIELD_DISPATCHES, ocean.look_dispatches()))
+        self.ocean.as_ref().map_or((0, 0), |ocean| (ocean.field_dispatches(), ocean.look_dispatches()))
     }
 }

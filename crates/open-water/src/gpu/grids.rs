@@ -1,46 +1,186 @@
-//! Grids that are stepped on the GPU.
+//! Grids that are stepped on the GPU: commands from the ticks go there, drawn heights come back some frames later.
+//!
+//! Nothing waits: a sample is as old as the last copy that has arrived, and says so.
 
 use glam::{DVec2, Vec2};
+use open_water_shaders::pipeline::Readback;
+use wave_grid::gpu::{GpuGridId, GpuGrids};
 use wave_grid::{GridSample, Source, Window};
 
+use super::mirror::Mirror;
 use crate::OpenWaterError;
-use crate::plan::FramePlan;
+use crate::grids::{Grids, Sim};
+use crate::plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
 use crate::water::OpenWater;
 
-pub(crate) enum RemoteGrid {}
+/// Copies under way at most.
+const SLOTS: usize = 3;
+
+/// Where and when a copy was made.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Stamp {
+    tick: u64,
+    corner: [i64; 2],
+}
+
+/// A grid's CPU side: what the next tick tells it, and what came back of it.
+pub(crate) struct RemoteGrid {
+    pub(crate) id: GpuGridId,
+    window: Window,
+    awake: bool,
+    target: Option<DVec2>,
+    sources: Vec<Source>,
+    ring: Readback<Stamp>,
+    mirror: Mirror,
+}
 
 impl RemoteGrid {
-    pub(crate) fn sample(&self, _points: &[Vec2], _out: &mut [GridSample]) {
-        match *self {}
+    pub(crate) fn sample(&self, points: &[Vec2], out: &mut [GridSample]) {
+        self.mirror.sample(points, out);
     }
+
     pub(crate) fn window(&self) -> Window {
-        match *self {}
+        self.window
     }
-    pub(crate) fn center_on(&mut self, _target: DVec2) {
-        match *self {}
+
+    pub(crate) fn center_on(&mut self, target: DVec2) {
+        self.target = Some(target);
     }
-    pub(crate) fn add(&mut self, _source: Source) {
-        match *self {}
+
+    pub(crate) fn add(&mut self, source: Source) {
+        self.sources.push(source);
     }
-    pub(crate) fn tick(&mut self) {
-        match *self {}
-    }
+
     pub(crate) fn is_awake(&self) -> bool {
-        match *self {}
+        self.awake
     }
 }
 
-pub(crate) struct RemoteGrids;
+/// All of them on the device.
+pub(crate) struct RemoteGrids {
+    device: wgpu::Device,
+    grids: GpuGrids,
+}
 
 impl RemoteGrids {
-    pub(crate) fn new(_device: &wgpu::Device) -> Self {
-        Self
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        Self { device: device.clone(), grids: GpuGrids::new(device) }
     }
-    pub(crate) fn add(&mut self, _desc: wave_grid::GridDesc) -> Result<RemoteGrid, OpenWaterError> {
-        Err(OpenWaterError::NoGpu)
+
+    pub(crate) fn add(&mut self, desc: wave_grid::GridDesc) -> Result<RemoteGrid, OpenWaterError> {
+        let id = self.grids.insert(desc)?;
+        let window = self.grids.window(id);
+        let bytes = u64::from(desc.cells[0]) * u64::from(desc.cells[1]) * size_of::<[f32; 2]>() as u64;
+        Ok(RemoteGrid {
+            id,
+            window,
+            awake: false,
+            target: None,
+            sources: Vec::new(),
+            ring: Readback::new(&self.device, "grid readback", bytes, SLOTS),
+            mirror: Mirror::new(desc.cells, desc.cell_size),
+        })
+    }
+
+    pub(crate) fn remove(&mut self, id: GpuGridId) {
+        self.grids.remove(id);
+    }
+
+    /// Passes on what the tick brought, queues one tick of all grids, and takes what has come back.
+    pub(crate) fn tick(&mut self, grids: &mut Grids) {
+        let mut any = false;
+        for grid in grids.iter_mut() {
+            let Sim::Gpu(remote) = &mut grid.sim else { continue };
+            any = true;
+            for source in remote.sources.drain(..) {
+                self.grids.add(remote.id, source);
+            }
+            if let Some(target) = remote.target.take() {
+                self.grids.center_on(remote.id, target);
+            }
+            remote.window = self.grids.window(remote.id);
+            remote.awake = !self.grids.is_asleep(remote.id);
+            if let Some(reading) = remote.ring.poll(&self.device) {
+                remote.mirror.take(reading.stamp.tick, reading.stamp.corner, reading.bytes);
+            }
+            if !remote.awake {
+                remote.mirror.still();
+            }
+        }
+        if any {
+            self.grids.tick();
+        }
+    }
+
+    /// Steps what was queued.
+    pub(crate) fn encode_steps(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) {
+        self.grids.encode(&self.device, queue, encoder);
+    }
+
+    /// Draws every awake grid into the pool, and copies it for the way back.
+    pub(crate) fn encode_draw(
+        &mut self,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        pool: &wgpu::Buffer,
+        plan: &FramePlan,
+        grids: &mut Grids,
+    ) {
+        let mut draws = Vec::new();
+        for grid in grids.iter() {
+            if let Sim::Gpu(remote) = &grid.sim
+                && remote.awake
+            {
+                draws.push((remote.id, grid.base));
+            }
+        }
+        self.grids.encode_draw(&self.device, queue, encoder, pool, &draws, plan.alpha);
+        for grid in grids.iter_mut() {
+            let (base, bytes) = (u64::from(grid.base) * size_of::<[f32; 2]>() as u64, grid.pool_bytes());
+            if let Sim::Gpu(remote) = &mut grid.sim
+                && remote.awake
+            {
+                let stamp = Stamp { tick: plan.tick, corner: remote.window.corner };
+                // Dropped when the GPU is too far behind: the mirror just gets older.
+                let _ = remote.ring.encode(encoder, pool, base, bytes, stamp);
+            }
+        }
     }
 }
 
 impl OpenWater {
-    pub(crate) fn plan_remote(&self, _plan: &mut FramePlan, _nobody: bool) {}
+    /// How many ticks old the CPU's samples of a grid are: 0 for a CPU-homed one, `None` for a GPU-homed one of which
+    /// nothing has come back yet (it samples as calm).
+    ///
+    /// # Errors
+    /// There is no such grid.
+    pub fn grid_age(&self, id: crate::GridId) -> Result<Option<u64>, OpenWaterError> {
+        Ok(match &self.grids.get(id)?.sim {
+            Sim::Cpu(_) => Some(0),
+            Sim::Gpu(remote) => remote.mirror.tick().map(|tick| self.tick.saturating_sub(tick)),
+        })
+    }
+
+    /// GPU-homed grids step and come back whether anybody looks or not: else the water would depend on the view.
+    pub(crate) fn plan_remote(&self, plan: &mut FramePlan) {
+        let Some(gpu) = &self.gpu else { return };
+        let pending = gpu.remote.grids.pending_dispatches() as u32;
+        if pending > 0 {
+            plan.work.push(Work::GridSteps { dispatches: pending });
+            plan.dispatches += pending;
+        }
+        let mut drawn = 0;
+        for grid in self.grids.iter() {
+            let Sim::Gpu(remote) = &grid.sim else { continue };
+            if remote.awake {
+                drawn += 1;
+            } else {
+                plan.skipped.push(Skipped { work: SkippedWork::Grid(grid.id), reason: Reason::Asleep });
+            }
+        }
+        if drawn > 0 {
+            plan.work.push(Work::GridDraw { grids: drawn });
+            plan.dispatches += 1;
+        }
+    }
 }

@@ -5,6 +5,7 @@
 mod encode;
 pub(crate) mod grids;
 mod host;
+mod mirror;
 mod surface;
 
 use ocean_spectrum::Ocean;
