@@ -178,3 +178,39 @@ fn wrong_descriptions_name_field_value_and_bound() {
     let error = water.add_grid(GridDesc { home: open_water::GridHome::Gpu, ..small_grid() }).unwrap_err();
     assert!(matches!(error, OpenWaterError::NoGpu), "{error}");
 }
+
+#[test]
+fn a_boat_circling_at_speed_through_its_own_wake_stays_sane() {
+    let mut water = OpenWater::headless(small_sea()).unwrap();
+    let hull = Hull::cuboid(Vec3::new(6.0, 1.2, 2.2)).unwrap();
+    let id = water.add_body(BodyDesc::boat(&hull, 2_400.0, 16.0)).unwrap();
+    let grid = water.add_grid(GridDesc { follow: Follow::Body(id), ..GridDesc::default() }).unwrap();
+    water.set_controls(id, Controls { throttle: 1.0, steering: 1.0, ..Controls::default() }).unwrap();
+    let mut store = BodyStates::default();
+    let start = water.body(id).unwrap().state();
+    store.insert(id, BodyState { velocity: Vec3::new(15.0, 0.0, 0.0), ..start });
+    let mut fastest = 0.0f32;
+    for frame in 0..900 {
+        // A hitch and a teleport on the way.
+        if frame == 400 {
+            assert!(water.advance(5.0).map(|tick| water.tick(tick, &mut store)).all(|r| r.is_ok()));
+        }
+        if frame == 600 {
+            let mut state = *store.get(id).unwrap();
+            state.position += Vec3::new(-800.0, 2.0, 300.0);
+            store.insert(id, state);
+        }
+        run(&mut water, &mut store, 1);
+        let state = store.get(id).unwrap();
+        fastest = fastest.max(state.velocity.length());
+        let p = state.position;
+        let mut sea = [WaterSample::default()];
+        water.sample(&[Vec2::new(p.x, p.z)], &mut sea);
+        assert!((p.y - sea[0].height).abs() < 5.0, "frame {frame}: {state:?} over {sea:?}");
+        assert!((state.orientation * Vec3::Y).y > 0.0, "capsized in frame {frame}: {state:?}");
+    }
+    let waves = water.grid(grid).unwrap().unwrap();
+    let highest = waves.heights().iter().fold(0.0f32, |m, z| m.max(z.abs()));
+    assert!(waves.is_finite() && highest < 5.0, "{highest} m");
+    assert!((8.0..25.0).contains(&fastest), "{fastest} m/s");
+}
