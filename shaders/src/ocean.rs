@@ -152,24 +152,20 @@ pub const STAGE: Pass = Pass {
     params: PARAMS,
 };
 
-/// Half-float looks with foam, mip levels 0 to 3.
+/// Half-float looks with foam, mip levels 0 to 2.
 pub const LOOKS: Pass = Pass {
     name: "ocean_looks",
     constants,
-    parts: &[
-        include_str!("../wgsl/shared/ocean.wgsl"),
-        include_str!("../wgsl/shared/mips.wgsl"),
-        include_str!("../wgsl/ocean_looks.wgsl"),
-    ],
+    parts: &[include_str!("../wgsl/shared/ocean.wgsl"), include_str!("../wgsl/ocean_looks.wgsl")],
     entry_points: &["ocean_looks"],
     params: PARAMS,
 };
 
-/// Four more mip levels of the looks.
+/// Two more mip levels of the looks.
 pub const MIPS: Pass = Pass {
     name: "ocean_mips",
     constants: crate::no_constants,
-    parts: &[include_str!("../wgsl/shared/mips.wgsl"), include_str!("../wgsl/ocean_mips.wgsl")],
+    parts: &[include_str!("../wgsl/ocean_mips.wgsl")],
     entry_points: &["ocean_mips"],
     params: &[],
 };

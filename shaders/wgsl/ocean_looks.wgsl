@@ -1,5 +1,5 @@
-// Half-float copies of the fields with foam in the spare channel, mip levels 0 to 3. One workgroup: 16 x 16 texels of
-// one layer.
+// Half-float copies of the fields with foam in the spare channel, mip levels 0 to 2. One thread: 4 x 4 texels of one
+// layer, so that no memory is shared.
 override N: u32;
 
 @group(0) @binding(0) var<uniform> ocean: OceanParams;
@@ -8,7 +8,6 @@ override N: u32;
 @group(0) @binding(3) var level0: texture_storage_2d_array<rgba16float, write>;
 @group(0) @binding(4) var level1: texture_storage_2d_array<rgba16float, write>;
 @group(0) @binding(5) var level2: texture_storage_2d_array<rgba16float, write>;
-@group(0) @binding(6) var level3: texture_storage_2d_array<rgba16float, write>;
 
 // Foam on the water now: the chance that the sum of all cascades folds below the threshold, given this one's
 // derivatives (a logistic for the normal distribution), less what the other cascades' foam accounts for.
@@ -19,42 +18,42 @@ fn breaking(cascade: u32, cross: f32, d: vec4<f32>) -> f32 {
     return clamp(1.0 / (1.0 + exp(x)) - c.foam_share, 0.0, 1.0);
 }
 
-fn look(layer: u32, p: vec2<u32>) -> vec4<f32> {
-    let v = textureLoad(fields, p, layer, 0);
-    if layer >= ocean.cascade_count {
-        return v;
-    }
+// What is there now of fresh and old foam; it replaces the old.
+fn foam_after(layer: u32, p: vec2<u32>, cross: f32) -> f32 {
     let at = (layer * N + p.y) * N + p.x;
-    let fresh = breaking(layer, v.w, textureLoad(fields, p, layer + ocean.cascade_count, 0));
+    let fresh = breaking(layer, cross, textureLoad(fields, p, layer + ocean.cascade_count, 0));
     let now = max(fresh, foam[at] * ocean.foam_decay);
     foam[at] = now;
-    return vec4<f32>(v.xyz, now);
+    return now;
+}
+
+// Writes a texel of level 0 and returns it.
+fn look(layer: u32, p: vec2<u32>) -> vec4<f32> {
+    var v = textureLoad(fields, p, layer, 0);
+    if layer < ocean.cascade_count {
+        v.w = foam_after(layer, p, v.w);
+    }
+    textureStore(level0, p, layer, v);
+    return v;
+}
+
+// Writes a texel of level 1 and the four below it, and returns it.
+fn look1(layer: u32, p1: vec2<u32>) -> vec4<f32> {
+    let p = 2u * p1;
+    let mean = 0.25 * ((look(layer, p) + look(layer, p + vec2<u32>(1u, 0u)))
+        + (look(layer, p + vec2<u32>(0u, 1u)) + look(layer, p + vec2<u32>(1u, 1u))));
+    textureStore(level1, p1, layer, mean);
+    return mean;
 }
 
 @compute @workgroup_size(8, 8)
-fn ocean_looks(
-    @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(local_invocation_id) local: vec3<u32>,
-    @builtin(local_invocation_index) id: u32,
-) {
-    let layer = group.z;
-    let p = 2u * (8u * group.xy + local.xy);
-    var sum = vec4<f32>(0.0);
-    for (var i = 0u; i < 4u; i++) {
-        let q = p + vec2<u32>(i & 1u, i >> 1u);
-        let v = look(layer, q);
-        textureStore(level0, q, layer, v);
-        sum += v;
+fn ocean_looks(@builtin(global_invocation_id) id: vec3<u32>) {
+    let layer = id.z;
+    if any(id.xy >= vec2<u32>(N / 4u)) {
+        return;
     }
-    let mean = 0.25 * sum;
-    textureStore(level1, p / 2u, layer, mean);
-    block[id] = mean;
-    let mean2 = coarser(id, 4u);
-    if id < 16u {
-        textureStore(level2, 4u * group.xy + vec2<u32>(id % 4u, id / 4u), layer, mean2);
-    }
-    let mean3 = coarser(id, 2u);
-    if id < 4u {
-        textureStore(level3, 2u * group.xy + vec2<u32>(id % 2u, id / 2u), layer, mean3);
-    }
+    let p1 = 2u * id.xy;
+    let mean = 0.25 * ((look1(layer, p1) + look1(layer, p1 + vec2<u32>(1u, 0u)))
+        + (look1(layer, p1 + vec2<u32>(0u, 1u)) + look1(layer, p1 + vec2<u32>(1u, 1u))));
+    textureStore(level2, id.xy, layer, mean);
 }

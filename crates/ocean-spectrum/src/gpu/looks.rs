@@ -5,10 +5,12 @@ use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_lay
 
 use super::upload::{self, Shape};
 
-/// Levels that one dispatch writes: WebGPU's default limit of storage textures.
-const LEVELS_PER_DISPATCH: u32 = 4;
+/// Levels that `ocean_looks` writes.
+const FIRST_LEVELS: u32 = 3;
+/// Levels that `ocean_mips` writes.
+const MORE_LEVELS: u32 = 2;
 /// Texels per side that a workgroup reads.
-const BLOCK: u32 = 16;
+const BLOCK: u32 = 32;
 
 #[derive(Debug)]
 struct Mips {
@@ -46,10 +48,9 @@ impl Looks {
         let uniform = Slot::Uniform { size: size_of::<OceanParams>() };
         let compute = wgpu::ShaderStages::COMPUTE;
 
-        let layout =
-            group_layout(device, LOOKS.name, compute, &[uniform, read, Slot::ReadWrite, write, write, write, write]);
+        let layout = group_layout(device, LOOKS.name, compute, &[uniform, read, Slot::ReadWrite, write, write, write]);
         let all_fields = upload::level(fields, 0);
-        let views: Vec<_> = (0..LEVELS_PER_DISPATCH).map(|l| upload::level(&texture, l)).collect();
+        let views: Vec<_> = (0..FIRST_LEVELS).map(|l| upload::level(&texture, l)).collect();
         let mut resources =
             vec![params.as_entire_binding(), wgpu::BindingResource::TextureView(&all_fields), foam.as_entire_binding()];
         resources.extend(views.iter().map(wgpu::BindingResource::TextureView));
@@ -58,15 +59,15 @@ impl Looks {
             bind_group(device, LOOKS.name, &layout, &resources),
         );
 
-        let layout = group_layout(device, MIPS.name, compute, &[read, write, write, write, write]);
-        let mips = (LEVELS_PER_DISPATCH..levels)
-            .step_by(LEVELS_PER_DISPATCH as usize)
+        let layout = group_layout(device, MIPS.name, compute, &[read, write, write]);
+        let mips = (FIRST_LEVELS..levels)
+            .step_by(MORE_LEVELS as usize)
             .map(|level| Self::mips(device, shape, &layout, &texture, level))
             .collect();
         Self { first, mips, texture, displacement, derivative }
     }
 
-    /// The dispatch that writes `level` and those after it.
+    /// The dispatch that writes `level` and the one after it.
     fn mips(
         device: &wgpu::Device,
         shape: Shape,
@@ -75,7 +76,7 @@ impl Looks {
         level: u32,
     ) -> Mips {
         let side = shape.size >> (level - 1);
-        let views: Vec<_> = (0..=LEVELS_PER_DISPATCH)
+        let views: Vec<_> = (0..=MORE_LEVELS)
             .map(|i| level - 1 + i)
             .map(|l| if l < texture.mip_level_count() { upload::level(texture, l) } else { unused(device, shape) })
             .collect();

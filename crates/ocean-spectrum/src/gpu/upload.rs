@@ -43,7 +43,7 @@ impl Shape {
         let invocations = limits.max_compute_invocations_per_workgroup;
         at_most("invocations of a workgroup", FFT_THREADS.into(), invocations.into())?;
         let textures = limits.max_storage_textures_per_shader_stage;
-        at_most("storage textures of a stage", 4, textures.into())
+        at_most("storage textures of a stage", 3, textures.into())
     }
 
     pub(super) fn check_same(self, other: Self) -> Result<(), GpuError> {
