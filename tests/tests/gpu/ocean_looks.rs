@@ -43,7 +43,7 @@ fn largest_difference(a: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
     a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
-/// Mean foam over the displacement layers.
+/// Foam of every texel of every cascade.
 fn foam(context: &Context, gpu: &GpuOcean) -> Vec<f32> {
     let texels = level(context, gpu, 0);
     texels[..texels.len() / 2].iter().map(|texel| texel[3]).collect()
