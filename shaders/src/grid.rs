@@ -3,18 +3,18 @@
 //!
 //! A grid's cells stand on a torus: world cell c is stored at c mod torus, so a window that shifts copies nothing. All
 //! grids share two buffers, heights (z, z, previous, foam) and memory (phi_x, phi_x, phi_z, phi_z). All tiles of 16 x 16
-//! cells that are to be stepped stand in one list; a workgroup takes one tile, a thread four cells of a row.
+//! cells that are to be stepped stand in one list; a workgroup takes one tile, a thread four cells of a row. The
+//! workgroup's z names the grid, whose parameters are a uniform: an address that the compiler knows to be the same for
+//! all threads is read once, others (on a software adapter) once for each.
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::{Pass, param_layout};
+use crate::{Pass, param_layout, surface::MAX_GRIDS};
 
 /// Cells along one side of a tile.
 pub const TILE: u32 = 16;
 /// Threads of a workgroup that steps a tile.
 pub const TILE_THREADS: u32 = TILE * TILE / 4;
-/// Most workgroups along x of a dispatch over tiles; more go to y.
-pub const TILES_PER_ROW: u32 = 32_768;
 /// Threads along x of `grid_draw`.
 pub const DRAW_THREADS: u32 = 64;
 /// Largest height in either direction that a source can reach, metres.
@@ -71,22 +71,29 @@ pub struct GridParams {
     pub foam_growth: f32,
     /// Foam: factor left after a tick.
     pub foam_keep: f32,
+    /// First of its tiles in the list.
+    pub first_tile: u32,
+    /// How many.
+    pub tile_count: u32,
     /// Padding.
-    pub pad: u32,
+    pub pad: [u32; 3],
 }
 
-/// A tile to be stepped in one tick.
+/// The grids of one tick, those with the most sub-steps first.
+pub type TickParams = [GridParams; MAX_GRIDS];
+
+/// A tile to be stepped in one tick: a `vec4<u32>` in WGSL, to be read at once.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct GridTile {
-    /// Index of its [`GridParams`].
-    pub grid: u32,
     /// Tile on the torus: column + 65536 row.
     pub place: u32,
     /// First of its sources.
     pub first_source: u32,
     /// How many.
     pub source_count: u32,
+    /// Padding.
+    pub pad: u32,
 }
 
 /// A source as a tile sees it.
@@ -107,18 +114,14 @@ pub struct GridSource {
     pub pad: [u32; 2],
 }
 
-/// What a dispatch over tiles covers.
+/// Which dispatch this is.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct GridDispatch {
-    /// First tile of the list.
-    pub first: u32,
-    /// Number of tiles.
-    pub count: u32,
     /// Sub-step within the tick.
     pub substep: u32,
     /// Padding.
-    pub pad: u32,
+    pub pad: [u32; 3],
 }
 
 /// A grid to be drawn.
@@ -169,11 +172,11 @@ const PARAMS: &[crate::ParamLayout] = &[
         foam_onset,
         foam_growth,
         foam_keep,
-        pad
+        first_tile,
+        tile_count
     }),
-    param_layout!(GridTile { grid, place, first_source, source_count }),
     param_layout!(GridSource { center, inner, outer, height, foam, pad }),
-    param_layout!(GridDispatch { first, count, substep, pad }),
+    param_layout!(GridDispatch { substep }),
 ];
 
 const DRAW_PARAMS: &[crate::ParamLayout] =
@@ -183,12 +186,13 @@ fn constants() -> String {
     format!(
         "const TILE: u32 = {TILE}u;\nconst TILE_THREADS: u32 = {TILE_THREADS}u;\n\
          const HEIGHT_LIMIT: f32 = {HEIGHT_LIMIT:?};\nconst TINY: f32 = {TINY:?};\n\
+         const MAX_GRIDS: u32 = {MAX_GRIDS}u;\n\
          const SHIFTED: u32 = {SHIFTED}u;\nconst CLEARED: u32 = {CLEARED}u;\n"
     )
 }
 
 fn draw_constants() -> String {
-    format!("const DRAW_THREADS: u32 = {DRAW_THREADS}u;\n")
+    format!("const DRAW_THREADS: u32 = {DRAW_THREADS}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\n")
 }
 
 const SHARED: &str = include_str!("../wgsl/shared/grid.wgsl");

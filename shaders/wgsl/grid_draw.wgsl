@@ -12,20 +12,21 @@ struct GridDraw {
     out: u32,
 }
 
-@group(0) @binding(0) var<storage, read> grid_draws: array<GridDraw>;
+@group(0) @binding(0) var<uniform> grid_draws: array<GridDraw, MAX_GRIDS>;
 @group(0) @binding(1) var<storage, read> grid_heights: array<f32>;
 @group(0) @binding(2) var<storage, read_write> grid_pool: array<vec2<f32>>;
 
 // Writes (height, foam) of every cell of the windows in the list, faded, `alpha` of the way to the last tick.
 @compute @workgroup_size(DRAW_THREADS)
-fn grid_draw(@builtin(global_invocation_id) id: vec3<u32>) {
-    let draw = &grid_draws[id.z];
+fn grid_draw(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>) {
+    let draw = &grid_draws[group.z];
     let cells = (*draw).cells;
     if id.x >= cells.x || id.y >= cells.y {
         return;
     }
     let torus = (*draw).torus;
-    let at = (id.xy + (*draw).corner) % torus;
+    let sum = id.xy + (*draw).corner;
+    let at = select(sum, sum - torus, sum >= torus);
     let cell = at.y * torus.x + at.x;
     let distance = abs(vec2<f32>(id.xy) + 0.5 - (*draw).middle);
     let t = clamp(((*draw).outer - distance) / (*draw).width, vec2<f32>(0.0), vec2<f32>(1.0));

@@ -3,17 +3,15 @@
 @compute @workgroup_size(TILE_THREADS)
 fn grid_prepare(
     @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let index = group.y * groups.x + group.x;
-    if index >= grid_dispatch.count {
+    let grid = &grid_params[group.z];
+    if group.x >= (*grid).tile_count {
         return;
     }
-    let tile = grid_tiles[grid_dispatch.first + index];
-    let grid = &grid_params[tile.grid];
+    let tile = grid_tiles[(*grid).first_tile + group.x];
     let cells = (*grid).cells;
-    let at = place_of(tile, local, (*grid).corner, (*grid).torus);
+    let at = place_of(tile.x, local, (*grid).corner, (*grid).torus);
     let offset = at.row * ((*grid).torus.x / 4u) + at.column;
     let stride = (*grid).stride;
     let first = (*grid).base + offset;
@@ -46,7 +44,7 @@ fn grid_prepare(
     grid_heights[first + 2u * stride] = now;
 
     let inside = (at.i < vec4<u32>(cells.x)) & vec4<bool>(at.j < cells.y);
-    for (var s = tile.first_source; s < tile.first_source + tile.source_count; s++) {
+    for (var s = tile.y; s < tile.y + tile.z; s++) {
         let source = grid_sources[s];
         let dx = vec4<f32>(at.i) + 0.5 - source.center.x;
         let dz = f32(at.j) + 0.5 - source.center.y;

@@ -33,18 +33,16 @@ fn next_phi(phi: vec4<f32>, e: vec4<f32>, z: vec4<f32>, flux: vec4<f32>) -> vec4
 @compute @workgroup_size(TILE_THREADS)
 fn grid_step(
     @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let index = group.y * groups.x + group.x;
-    if index >= grid_dispatch.count {
+    let grid = &grid_params[group.z];
+    if group.x >= (*grid).tile_count {
         return;
     }
-    let tile = grid_tiles[grid_dispatch.first + index];
-    let grid = &grid_params[tile.grid];
+    let tile = grid_tiles[(*grid).first_tile + group.x];
     let cells = (*grid).cells;
     let torus = (*grid).torus;
-    let at = place_of(tile, local, (*grid).corner, torus);
+    let at = place_of(tile.x, local, (*grid).corner, torus);
     let columns = torus.x / 4u;
     let west = select(at.column - 1u, columns - 1u, at.column == 0u);
     let east = select(at.column + 1u, 0u, at.column + 1u == columns);

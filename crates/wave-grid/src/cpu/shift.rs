@@ -11,7 +11,7 @@ pub(crate) fn shift(state: &mut State, shift: [i64; 2], thickness: usize) {
     for array in state.arrays() {
         shift_array(array, nx, nz, shift);
     }
-    for array in [&mut state.z, &mut state.old] {
+    for array in [&mut state.z, &mut state.old, &mut state.foam] {
         array[..nx].fill(0.0);
         array[(nz - 1) * nx..].fill(0.0);
         for row in array.chunks_exact_mut(nx) {

@@ -3,9 +3,10 @@
 use std::collections::VecDeque;
 
 use bytemuck::{NoUninit, Zeroable};
-use open_water_shaders::grid::{GridDispatch, GridDraw, GridParams};
+use open_water_shaders::grid::{GridDispatch, GridDraw, TickParams};
 use open_water_shaders::pipeline::bind_group;
 
+use super::MAX_GRIDS;
 use super::pack::{Packer, Tick};
 use super::pass::{DISPATCH_STRIDE, Passes};
 
@@ -32,6 +33,12 @@ impl List {
         queue.write_buffer(&self.buffer, 0, bytes);
         grown
     }
+}
+
+/// The first `size` bytes, to be moved by a dynamic offset.
+fn first(list: &List, size: usize) -> wgpu::BindingResource<'_> {
+    let size = std::num::NonZeroU64::new(size as u64);
+    wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: &list.buffer, offset: 0, size })
 }
 
 fn create(device: &wgpu::Device, label: &str, usage: wgpu::BufferUsages, size: u64) -> wgpu::Buffer {
@@ -63,13 +70,13 @@ const STATE_USAGE: wgpu::BufferUsages =
 impl Buffers {
     pub(super) fn new(device: &wgpu::Device) -> Self {
         let list = |label, usage, bytes| List::new(device, label, usage, bytes);
-        let storage = wgpu::BufferUsages::STORAGE;
+        let (uniform, storage) = (wgpu::BufferUsages::UNIFORM, wgpu::BufferUsages::STORAGE);
         Self {
-            dispatches: list("grid dispatches", wgpu::BufferUsages::UNIFORM, 4096),
-            params: list("grid params", storage, size_of::<GridParams>() as u64),
+            dispatches: list("grid dispatches", uniform, 4096),
+            params: list("grid params", uniform, size_of::<TickParams>() as u64),
             tiles: list("grid tiles", storage, 4096),
             sources: list("grid sources", storage, 4096),
-            draws: list("grid draws", storage, size_of::<GridDraw>() as u64),
+            draws: list("grid draws", uniform, (MAX_GRIDS * size_of::<GridDraw>()) as u64),
             heights: create(device, "grid heights", STATE_USAGE, 16),
             memory: create(device, "grid memory", STATE_USAGE, 16),
             state_group: None,
@@ -102,18 +109,13 @@ impl Buffers {
         packer: &mut Packer,
         ticks: &VecDeque<Tick>,
     ) -> &wgpu::BindGroup {
+        let most = ticks.iter().map(|tick| tick.substeps.len()).max().unwrap_or(0);
         self.uniforms.clear();
-        for tick in ticks {
-            let mut push = |count: u32, substep: u32| {
-                let mut slot = Slot::zeroed();
-                slot[0] = GridDispatch { first: tick.first, count, substep, pad: 0 };
-                self.uniforms.push(slot);
-            };
-            push(tick.tiles, 0);
-            for (substep, tiles) in (0..).zip(&tick.substeps) {
-                push(*tiles, substep);
-            }
-        }
+        self.uniforms.extend((0..most as u32).map(|substep| {
+            let mut slot = Slot::zeroed();
+            slot[0].substep = substep;
+            slot
+        }));
         let mut stale = self.dispatches.write(device, queue, &self.uniforms);
         stale |= self.params.write(device, queue, &packer.params);
         stale |= self.tiles.write(device, queue, &packer.tiles);
@@ -123,14 +125,9 @@ impl Buffers {
             self.state_group = None;
         }
         self.state_group.get_or_insert_with(|| {
-            let one = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: &self.dispatches.buffer,
-                offset: 0,
-                size: std::num::NonZeroU64::new(size_of::<GridDispatch>() as u64),
-            });
             let resources = [
-                one,
-                self.params.buffer.as_entire_binding(),
+                first(&self.dispatches, size_of::<GridDispatch>()),
+                first(&self.params, size_of::<TickParams>()),
                 self.tiles.buffer.as_entire_binding(),
                 self.sources.buffer.as_entire_binding(),
                 self.heights.as_entire_binding(),

@@ -11,7 +11,7 @@ mod pass;
 use std::collections::VecDeque;
 
 use glam::DVec2;
-use open_water_shaders::grid::{self as shader, DRAW_THREADS, TILES_PER_ROW};
+use open_water_shaders::grid::{self as shader, DRAW_THREADS, TickParams};
 
 use crate::border::Profile;
 use crate::cpu::foam::FoamLaw;
@@ -189,7 +189,7 @@ impl GpuGrids {
             return false;
         }
         let tick = self.packer.pack(&mut self.grids);
-        if tick.tiles > 0 {
+        if !tick.substeps.is_empty() {
             self.ticks.push_back(tick);
         }
         true
@@ -209,17 +209,16 @@ impl GpuGrids {
         let state_group = self.buffers.upload(device, queue, &self.passes, &mut self.packer, &self.ticks);
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() });
-        let mut dispatch = 0;
-        let mut run = |pipeline: &wgpu::ComputePipeline, tiles: u32| {
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, state_group, &[dispatch * pass::DISPATCH_STRIDE]);
-            pass.dispatch_workgroups(tiles.min(TILES_PER_ROW), tiles.div_ceil(TILES_PER_ROW), 1);
-            dispatch += 1;
-        };
-        for tick in self.ticks.drain(..) {
-            run(&self.passes.prepare, tick.tiles);
-            for tiles in tick.substeps {
-                run(&self.passes.step, tiles);
+        for (index, tick) in (0..).zip(self.ticks.drain(..)) {
+            let params = index * size_of::<TickParams>() as u32;
+            let mut run = |pipeline: &wgpu::ComputePipeline, substep: u32, [tiles, grids]: [u32; 2]| {
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, state_group, &[substep * pass::DISPATCH_STRIDE, params]);
+                pass.dispatch_workgroups(tiles, 1, grids);
+            };
+            run(&self.passes.prepare, 0, tick.prepare);
+            for (substep, covered) in (0..).zip(tick.substeps) {
+                run(&self.passes.step, substep, covered);
             }
         }
     }

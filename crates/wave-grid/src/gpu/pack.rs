@@ -1,27 +1,25 @@
 //! Turns a tick of all grids into what the passes read: parameters, tiles, sources.
 
 use bytemuck::Zeroable;
-use open_water_shaders::grid::{CLEARED, GridParams, GridSource, GridTile, SHIFTED, STOOD};
+use open_water_shaders::grid::{CLEARED, GridParams, GridSource, GridTile, SHIFTED, STOOD, TickParams};
 
 use super::Grid;
 use crate::TILE;
 use crate::source::Footprint;
 
-/// A queued tick.
+/// A queued tick: workgroups along x (tiles) and z (grids) of each dispatch.
 #[derive(Debug)]
 pub(super) struct Tick {
-    /// First of its tiles in the packer's list.
-    pub(super) first: u32,
-    /// How many.
-    pub(super) tiles: u32,
-    /// Tiles of each sub-step: those of the grids that have so many, which stand first.
-    pub(super) substeps: Vec<u32>,
+    pub(super) prepare: [u32; 2],
+    /// Each sub-step covers the grids that have so many, which stand first.
+    pub(super) substeps: Vec<[u32; 2]>,
 }
 
 /// What is to be uploaded.
 #[derive(Debug, Default)]
 pub(super) struct Packer {
-    pub(super) params: Vec<GridParams>,
+    /// One entry per tick.
+    pub(super) params: Vec<TickParams>,
     pub(super) tiles: Vec<GridTile>,
     pub(super) sources: Vec<GridSource>,
     /// (place of a tile, source) of one grid.
@@ -38,19 +36,24 @@ impl Packer {
 
     /// Appends one tick, and moves the grids on.
     pub(super) fn pack(&mut self, grids: &mut [Grid]) -> Tick {
-        let first = self.tiles.len() as u32;
         let mut order: Vec<usize> = (0..grids.len()).filter(|g| grids[*g].awake > 0).collect();
         order.sort_by_key(|g| std::cmp::Reverse(grids[*g].stepping.substeps));
         let most = order.first().map_or(0, |g| grids[*g].stepping.substeps);
-        let mut substeps = vec![0; most as usize];
-        for g in order {
+        let mut tick = Tick { prepare: [0; 2], substeps: vec![[0; 2]; most as usize] };
+        if order.is_empty() {
+            return tick;
+        }
+        let mut params = TickParams::default();
+        for (g, params) in order.into_iter().zip(&mut params) {
             let grid = &mut grids[g];
             // The last tick of a grid stills it.
             grid.awake -= 1;
             grid.clear |= grid.awake == 0;
-            self.pack_grid(grid);
-            for end in &mut substeps[..grid.stepping.substeps as usize] {
-                *end = self.tiles.len() as u32 - first;
+            *params = self.pack_grid(grid);
+            let covered = tick.substeps.iter_mut().take(grid.stepping.substeps as usize);
+            for [tiles, count] in covered.chain([&mut tick.prepare]) {
+                *tiles = params.tile_count.max(*tiles);
+                *count += 1;
             }
             grid.parity = (grid.parity + grid.stepping.substeps) & 1;
             grid.shift = [0; 2];
@@ -58,10 +61,11 @@ impl Packer {
             grid.moving &= grid.awake > 0;
             grid.sources.clear();
         }
-        Tick { first, tiles: self.tiles.len() as u32 - first, substeps }
+        self.params.push(params);
+        tick
     }
 
-    fn pack_grid(&mut self, grid: &Grid) {
+    fn pack_grid(&mut self, grid: &Grid) -> GridParams {
         let profile = grid.profile();
         let (straight, beside) = grid.desc.scheme.weights();
         let moved = match grid {
@@ -69,8 +73,9 @@ impl Packer {
             Grid { shift: [0, 0], .. } => STOOD,
             _ => SHIFTED,
         };
-        let index = self.params.len() as u32;
-        self.params.push(GridParams {
+        let first_tile = self.tiles.len() as u32;
+        self.pack_tiles(grid);
+        GridParams {
             corner: grid.torus_corner(),
             cells: grid.desc.cells,
             torus: grid.torus.map(|n| n as u32),
@@ -90,8 +95,13 @@ impl Packer {
             foam_onset: grid.law.onset,
             foam_growth: grid.law.growth,
             foam_keep: grid.law.keep,
-            pad: 0,
-        });
+            first_tile,
+            tile_count: self.tiles.len() as u32 - first_tile,
+            ..GridParams::zeroed()
+        }
+    }
+
+    fn pack_tiles(&mut self, grid: &Grid) {
         self.place_sources(grid);
         let mut next = 0;
         for row in 0..grid.torus[1] / TILE {
@@ -103,7 +113,7 @@ impl Packer {
                     next += 1;
                 }
                 let source_count = self.sources.len() as u32 - first_source;
-                self.tiles.push(GridTile { grid: index, place, first_source, source_count });
+                self.tiles.push(GridTile { place, first_source, source_count, pad: 0 });
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The pipelines of the grid passes and their layouts.
 
-use open_water_shaders::grid::{self as shader, GridDispatch};
+use super::MAX_GRIDS;
+use open_water_shaders::grid::{self as shader, GridDispatch, GridDraw, TickParams};
 use open_water_shaders::pipeline::{Slot, compute_pipeline, group_layout};
 
 /// Bytes between the dispatches' uniforms: WebGPU's alignment of dynamic offsets.
@@ -20,9 +21,11 @@ impl Passes {
     pub(super) fn new(device: &wgpu::Device) -> Self {
         let compute = wgpu::ShaderStages::COMPUTE;
         let uniform = Slot::DynamicUniform { size: size_of::<GridDispatch>() };
-        let state = [uniform, Slot::Read, Slot::Read, Slot::Read, Slot::ReadWrite, Slot::ReadWrite];
+        let params = Slot::DynamicUniform { size: size_of::<TickParams>() };
+        let state = [uniform, params, Slot::Read, Slot::Read, Slot::ReadWrite, Slot::ReadWrite];
+        let draws = Slot::Uniform { size: MAX_GRIDS * size_of::<GridDraw>() };
         let state_layout = group_layout(device, "grid state", compute, &state);
-        let draw_layout = group_layout(device, "grid draw", compute, &[Slot::Read, Slot::Read, Slot::ReadWrite]);
+        let draw_layout = group_layout(device, "grid draw", compute, &[draws, Slot::Read, Slot::ReadWrite]);
         let pipeline = |pass: &open_water_shaders::Pass, layout: &wgpu::BindGroupLayout| {
             compute_pipeline(device, pass, pass.name, &[layout], &[])
         };
