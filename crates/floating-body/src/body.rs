@@ -78,6 +78,8 @@ pub struct Body {
     restart: bool,
     wash: Displacement,
     immersed: f32,
+    /// The waves it makes act on it; otherwise its coefficients do.
+    feels_own: bool,
 }
 
 impl Body {
@@ -124,6 +126,7 @@ impl Body {
             restart: true,
             wash: Displacement::default(),
             immersed: 0.0,
+            feels_own: false,
             points,
             desc,
         })
@@ -177,6 +180,7 @@ impl Body {
     }
 
     fn read(&mut self, water: &dyn WaterSurface) {
+        self.feels_own = self.desc.radiation == Radiation::Grid && water.carries_own_waves();
         let pose = self.pose();
         let spots = self.points.iter().map(|p| p.position);
         let spots = spots.chain(self.desc.engine.map(|e| e.position - self.desc.center_of_mass));
@@ -196,7 +200,7 @@ impl Body {
     /// Semi-implicit Euler: forces at the old pose change the velocities, these move the pose. Drag is implicit.
     fn substep(&mut self, dt: f32, controls: &Controls) {
         let (pose, desc) = (self.pose(), &self.desc);
-        let own = desc.radiation == Radiation::Grid;
+        let own = self.feels_own;
         let wet = immerse(&self.points, &self.waters, &pose, own, desc.water_density);
         let share = (wet.volume / self.waterline.volume).min(DEEPEST);
         let to_body = pose.rotation.transpose();

@@ -25,10 +25,12 @@ pub enum Inertia {
 /// Who accounts for the waves that a body makes. Both at once would count them twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Radiation {
-    /// Forces leave the body's own grid out; added mass and linear damping act.
-    #[default]
+    /// Forces leave the body's own grid out; added mass and linear damping act. For a boat with a grid of its own, which
+    /// its own wake shall not lift.
     Coefficients,
-    /// Forces feel the body's own grid (`SurfaceSample::own`); added mass and damping are off.
+    /// Forces feel the body's own grid (`SurfaceSample::own`), with the wakes of others in it; added mass and damping
+    /// are off. Where no grid carries the body's waves, as `Coefficients`.
+    #[default]
     Grid,
 }
 
@@ -118,6 +120,7 @@ impl BodyDesc {
         let buoyancy = waterline.center_of_buoyancy;
         let center = Vec3::new(buoyancy.x, waterline.level + 0.03 * beam, buoyancy.z);
         let away = center - desc.center_of_mass;
+        desc.radiation = Radiation::Coefficients;
         desc.center_of_mass = center;
         desc.unit_inertia += Mat3::from_diagonal(Vec3::splat(away.length_squared()))
             - Mat3::from_cols(away * away.x, away * away.y, away * away.z);

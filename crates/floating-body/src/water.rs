@@ -65,6 +65,11 @@ pub trait WaterSurface: Sync {
     fn sample(&self, points: &[Vec2], out: &mut [SurfaceSample]);
     /// The water averaged over a disc of `radius` m about `center`.
     fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch;
+    /// Whether something carries the waves that the body makes, so that `own` holds them. Where nothing does, a body
+    /// with [`Radiation::Grid`](crate::Radiation::Grid) uses its coefficients instead.
+    fn carries_own_waves(&self) -> bool {
+        false
+    }
 }
 
 /// Flat water at one height with a uniform current.

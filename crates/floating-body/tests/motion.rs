@@ -197,6 +197,9 @@ fn the_own_grid_is_felt_with_radiation_grid_only() {
         fn patch(&self, _: Vec2, _: f32) -> SurfacePatch {
             SurfacePatch { own: 0.2, ..SurfacePatch::default() }
         }
+        fn carries_own_waves(&self) -> bool {
+            true
+        }
     }
     for (radiation, expected) in [(Radiation::Coefficients, 0.0), (Radiation::Grid, 0.2)] {
         for sampling in [Sampling::Patch, Sampling::Points] {

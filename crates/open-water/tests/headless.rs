@@ -3,7 +3,7 @@
 use glam::{DVec2, Quat, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, BodyStore, Controls, Follow, GridDesc, Hull, OpenWater, OpenWaterDesc,
-    OpenWaterError, Preset, Radiation, Tick, WaterSample,
+    OpenWaterError, Preset, Tick, WaterSample,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -24,7 +24,7 @@ fn small_grid() -> GridDesc {
 
 fn boat() -> BodyDesc {
     let hull = Hull::cuboid(Vec3::new(6.0, 1.2, 2.2)).unwrap();
-    BodyDesc { radiation: Radiation::Coefficients, ..BodyDesc::boat(&hull, 4_000.0, 10.0) }
+    BodyDesc::boat(&hull, 4_000.0, 10.0)
 }
 
 fn run(water: &mut OpenWater, store: &mut dyn BodyStore, ticks: usize) {
@@ -62,8 +62,7 @@ fn a_boat_drives_and_leaves_a_wake() {
 fn the_wake_lifts_flotsam_that_floats_in_it() {
     let (mut water, mut store, boat) = with_boat(calm());
     let hull = Hull::cuboid(Vec3::new(0.5, 0.5, 0.5)).unwrap();
-    let desc = BodyDesc { radiation: Radiation::Grid, ..BodyDesc::from_hull(&hull, 60.0) };
-    let id = water.add_body(desc).unwrap();
+    let id = water.add_body(BodyDesc::from_hull(&hull, 60.0)).unwrap();
     let start = water.body(id).unwrap().state();
     store.insert(id, BodyState { position: start.position + Vec3::new(9.0, 0.0, 3.5), ..start });
     let mut reach = 0.0f32;

@@ -135,6 +135,10 @@ impl WaterSurface for BodyWater<'_> {
         }
     }
 
+    fn carries_own_waves(&self) -> bool {
+        self.home.is_some()
+    }
+
     fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch {
         let a = self.water.ocean.map_or_else(Default::default, |ocean| ocean.patch(center, radius));
         let mut others = [GridSample::default()];
