@@ -1,6 +1,6 @@
 //! Case `fft_gpu`: the fields that the GPU synthesises against a direct sum.
 
-use ocean_spectrum::{Ocean, OceanDesc, Repro, gpu::GpuOcean};
+use ocean_spectrum::{Ocean, gpu::GpuOcean};
 
 use super::ocean_fft::{NAMES, compare, exact_time};
 use crate::{
@@ -29,7 +29,7 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
     let gpu = context.gpu()?;
     let mut rows = Vec::new();
     for &size in context.pick(&[128, 256][..], &[64, 128, 256, 512, 1024]) {
-        let mut ocean = Ocean::new(OceanDesc { repro: Repro::Fast, ..fixtures::ocean(size) })?;
+        let mut ocean = Ocean::new(fixtures::ocean(size))?;
         let mut gpu_ocean = GpuOcean::new(&gpu.device, &ocean)?;
         let phase = ocean.phase_at(exact_time(&ocean));
         gpu.run(|encoder| gpu_ocean.encode_fields(&gpu.queue, encoder, phase))?;
@@ -74,7 +74,7 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
                 .error(worst.0, "relative RMS", "direct sum in f64")
                 .bound(3e-6)
                 .time("eight fields of every cascade: encode, submit, wait", &ours)
-                .baseline("the CPU synthesis of twelve fields, fast, all threads", &cpu),
+                .baseline("the CPU synthesis of twelve fields, all threads", &cpu),
         );
     }
     Ok(rows)
