@@ -13,7 +13,7 @@ impl Gpu {
     /// The texels of an `Rgba32Float` texture's first mip, layer by layer. Its rows must fill whole 256 bytes.
     pub fn read_texture(&self, texture: &wgpu::Texture) -> Result<Vec<[f32; 4]>, CaseError> {
         let bytes_per_row = texture.width() * 16;
-        if bytes_per_row % wgpu::COPY_BYTES_PER_ROW_ALIGNMENT != 0 {
+        if !bytes_per_row.is_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT) {
             return Err(format!("a texture {} texels wide cannot be copied row by row", texture.width()).into());
         }
         let size = texture.size();
