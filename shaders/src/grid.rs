@@ -3,9 +3,10 @@
 //!
 //! A grid's cells stand on a torus: world cell c is stored at c mod torus, so a window that shifts copies nothing. All
 //! grids share two buffers, heights (z, z, previous, foam) and memory (phi_x, phi_x, phi_z, phi_z). All tiles of 16 x 16
-//! cells that are to be stepped stand in one list; a workgroup takes one tile, a thread four cells of a row. The
-//! workgroup's z names the grid, whose parameters are a uniform: an address that the compiler knows to be the same for
-//! all threads is read once, others (on a software adapter) once for each.
+//! cells that are to be stepped stand in one list; a workgroup takes one tile, a thread four cells of a row.
+//!
+//! Choices are made by `override` constants and `select`, not by branches: a software adapter runs both sides of a
+//! branch, and its cost follows the number of components that are loaded and stored.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -71,22 +72,18 @@ pub struct GridParams {
     pub foam_growth: f32,
     /// Foam: factor left after a tick.
     pub foam_keep: f32,
-    /// First of its tiles in the list.
-    pub first_tile: u32,
-    /// How many.
-    pub tile_count: u32,
     /// Padding.
-    pub pad: [u32; 3],
+    pub pad: u32,
 }
 
 /// The grids of one tick, those with the most sub-steps first.
 pub type TickParams = [GridParams; MAX_GRIDS];
 
-/// A tile to be stepped in one tick: a `vec4<u32>` in WGSL, to be read at once.
+/// A tile to be stepped in one tick: a `vec4<u32>` in WGSL, of which a step reads the first component only.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct GridTile {
-    /// Tile on the torus: column + 65536 row.
+    /// Tile on the torus, and its grid's place in [`TickParams`]: column + 2^8 row + 2^16 grid.
     pub place: u32,
     /// First of its sources.
     pub first_source: u32,
@@ -118,10 +115,12 @@ pub struct GridSource {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct GridDispatch {
+    /// First tile of the list.
+    pub first: u32,
     /// Sub-step within the tick.
     pub substep: u32,
     /// Padding.
-    pub pad: [u32; 3],
+    pub pad: [u32; 2],
 }
 
 /// A grid to be drawn.
@@ -172,11 +171,10 @@ const PARAMS: &[crate::ParamLayout] = &[
         foam_onset,
         foam_growth,
         foam_keep,
-        first_tile,
-        tile_count
+        pad
     }),
     param_layout!(GridSource { center, inner, outer, height, foam, pad }),
-    param_layout!(GridDispatch { substep }),
+    param_layout!(GridDispatch { first, substep }),
 ];
 
 const DRAW_PARAMS: &[crate::ParamLayout] =
@@ -197,7 +195,8 @@ fn draw_constants() -> String {
 
 const SHARED: &str = include_str!("../wgsl/shared/grid.wgsl");
 
-/// Moves the window, keeps the last tick's heights, adds sources.
+/// Moves the window, keeps the last tick's heights, adds sources. `override MOVED` tells whether a grid among those covered
+/// moved.
 pub const PREPARE: Pass = Pass {
     name: "grid_prepare",
     constants,
@@ -206,7 +205,8 @@ pub const PREPARE: Pass = Pass {
     params: PARAMS,
 };
 
-/// One sub-step.
+/// One sub-step. `override LAYER` tells whether the tiles may have cells of the layer, `override LAST` whether it may
+/// be a covered grid's last.
 pub const STEP: Pass = Pass {
     name: "grid_step",
     constants,

@@ -21,19 +21,18 @@ struct GridDraw {
 fn grid_draw(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>) {
     let draw = &grid_draws[group.z];
     let cells = (*draw).cells;
-    if id.x >= cells.x || id.y >= cells.y {
-        return;
-    }
+    // Threads beyond the window repeat its last cells.
+    let cell_at = min(id.xy, cells - 1u);
     let torus = (*draw).torus;
-    let sum = id.xy + (*draw).corner;
+    let sum = cell_at + (*draw).corner;
     let at = select(sum, sum - torus, sum >= torus);
     let cell = at.y * torus.x + at.x;
-    let distance = abs(vec2<f32>(id.xy) + 0.5 - (*draw).middle);
+    let distance = abs(vec2<f32>(cell_at) + 0.5 - (*draw).middle);
     let t = clamp(((*draw).outer - distance) / (*draw).width, vec2<f32>(0.0), vec2<f32>(1.0));
     let ramp = t * t * (3.0 - 2.0 * t);
     let fade = ramp.x * ramp.y;
     let previous = grid_heights[(*draw).previous + cell];
     let now = grid_heights[(*draw).now + cell];
     let foam = grid_heights[(*draw).foam + cell];
-    grid_pool[(*draw).out + id.y * cells.x + id.x] = fade * vec2<f32>(mix(previous, now, (*draw).alpha), foam);
+    grid_pool[(*draw).out + cell_at.y * cells.x + cell_at.x] = fade * vec2<f32>(mix(previous, now, (*draw).alpha), foam);
 }

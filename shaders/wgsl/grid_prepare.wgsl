@@ -1,17 +1,16 @@
 // The start of a tick: what entered the window is calm, the heights of the last tick are kept for drawing, sources are
 // written into z and z_old. Each thread touches its own four cells only.
+override MOVED: bool = true;
+
 @compute @workgroup_size(TILE_THREADS)
 fn grid_prepare(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let grid = &grid_params[group.z];
-    if group.x >= (*grid).tile_count {
-        return;
-    }
-    let tile = grid_tiles[(*grid).first_tile + group.x];
+    let tile = grid_tiles[grid_dispatch.first + group.x].x;
+    let grid = &grid_params[tile >> 16u];
     let cells = (*grid).cells;
-    let at = place_of(tile.x, local, (*grid).corner, (*grid).torus);
+    let at = place_of(tile, local, (*grid).corner, (*grid).torus);
     let offset = at.row * ((*grid).torus.x / 4u) + at.column;
     let stride = (*grid).stride;
     let first = (*grid).base + offset;
@@ -22,29 +21,32 @@ fn grid_prepare(
     var old = grid_heights[old_at];
     var foam = grid_heights[foam_at];
 
-    if (*grid).moved != 0u {
+    if MOVED {
         let w = (*grid).thickness;
+        let stood = (*grid).moved == 0u;
         let was = vec4<i32>(at.i) + vec4<i32>((*grid).shift.x);
         let was_row = i32(at.j) + (*grid).shift.y;
         let row_held = (*grid).moved == SHIFTED && at.j < cells.y && was_row >= 0 && was_row < i32(cells.y);
         let held = (at.i < vec4<u32>(cells.x)) & (was >= vec4<i32>(0)) & (was < vec4<i32>(i32(cells.x))) & vec4<bool>(row_held);
         let open = held & (at.i > vec4<u32>(0u)) & (at.i < vec4<u32>(cells.x - 1u)) & vec4<bool>(at.j > 0u && at.j < cells.y - 1u);
-        now = select(vec4<f32>(0.0), now, open);
-        old = select(vec4<f32>(0.0), old, open);
-        foam = select(vec4<f32>(0.0), foam, held);
+        now = select(vec4<f32>(0.0), now, open | vec4<bool>(stood));
+        old = select(vec4<f32>(0.0), old, open | vec4<bool>(stood));
+        foam = select(vec4<f32>(0.0), foam, held | vec4<bool>(stood));
         // phi that left the layer would never decay.
         let free_x = (at.i > vec4<u32>(w)) & (at.i < vec4<u32>(cells.x - w)) & vec4<bool>(at.j >= w && at.j < cells.y - w);
         let free_z = (at.i >= vec4<u32>(w)) & (at.i < vec4<u32>(cells.x - w)) & vec4<bool>(at.j > w && at.j < cells.y - w);
-        for (var k = 0u; k < 4u; k++) {
-            let phi = grid_memory[first + k * stride];
-            let free = select(free_x, free_z, vec4<bool>(k >= 2u));
-            grid_memory[first + k * stride] = select(vec4<f32>(0.0), phi, held & !free);
-        }
+        let keep_x = (held & !free_x) | vec4<bool>(stood);
+        let keep_z = (held & !free_z) | vec4<bool>(stood);
+        grid_memory[first] = select(vec4<f32>(0.0), grid_memory[first], keep_x);
+        grid_memory[first + stride] = select(vec4<f32>(0.0), grid_memory[first + stride], keep_x);
+        grid_memory[first + 2u * stride] = select(vec4<f32>(0.0), grid_memory[first + 2u * stride], keep_z);
+        grid_memory[first + 3u * stride] = select(vec4<f32>(0.0), grid_memory[first + 3u * stride], keep_z);
     }
     grid_heights[first + 2u * stride] = now;
 
     let inside = (at.i < vec4<u32>(cells.x)) & vec4<bool>(at.j < cells.y);
-    for (var s = tile.y; s < tile.y + tile.z; s++) {
+    let sources = grid_tiles[grid_dispatch.first + group.x].yz;
+    for (var s = sources.x; s < sources.x + sources.y; s++) {
         let source = grid_sources[s];
         let dx = vec4<f32>(at.i) + 0.5 - source.center.x;
         let dz = f32(at.j) + 0.5 - source.center.y;

@@ -1,5 +1,9 @@
 // One sub-step in place over the older heights; see kernels.rs of wave-grid for the formulas. The layer keeps phi on the
-// edges before each cell; each cell recomputes the phi of the edges after it.
+// edges before each cell; each cell recomputes the phi of the edges after it. Tiles without a cell of the layer have a
+// pipeline of their own.
+override LAYER: bool = true;
+override LAST: bool = true;
+
 struct Row {
     west: vec4<f32>,
     here: vec4<f32>,
@@ -7,10 +11,10 @@ struct Row {
 }
 
 fn read_row(first: u32, west: u32, here: u32, east: u32) -> Row {
-    let w = grid_heights[first + west];
+    let w = grid_heights[first + west].w;
     let h = grid_heights[first + here];
-    let e = grid_heights[first + east];
-    return Row(vec4<f32>(w.w, h.xyz), h, vec4<f32>(h.yzw, e.x));
+    let e = grid_heights[first + east].x;
+    return Row(vec4<f32>(w, h.xyz), h, vec4<f32>(h.yzw, e));
 }
 
 fn flush(x: vec4<f32>) -> vec4<f32> {
@@ -35,14 +39,11 @@ fn grid_step(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let grid = &grid_params[group.z];
-    if group.x >= (*grid).tile_count {
-        return;
-    }
-    let tile = grid_tiles[(*grid).first_tile + group.x];
+    let tile = grid_tiles[grid_dispatch.first + group.x].x;
+    let grid = &grid_params[tile >> 16u];
     let cells = (*grid).cells;
     let torus = (*grid).torus;
-    let at = place_of(tile.x, local, (*grid).corner, torus);
+    let at = place_of(tile, local, (*grid).corner, torus);
     let columns = torus.x / 4u;
     let west = select(at.column - 1u, columns - 1u, at.column == 0u);
     let east = select(at.column + 1u, 0u, at.column + 1u == columns);
@@ -62,10 +63,9 @@ fn grid_step(
     let straight = (*grid).weights.x;
     let beside = (*grid).weights.y;
     let damping = (*grid).damping;
-    let w = (*grid).thickness;
     let cross = ((c.west - z) + (c.east - z)) + ((s.here - z) + (n.here - z));
 
-    if at.j > w && at.j + w + 1u < cells.y && all(at.i > vec4<u32>(w)) && all(at.i + w + 1u < vec4<u32>(cells.x)) {
+    if !LAYER {
         let diagonal = ((s.west - z) + (s.east - z)) + ((n.west - z) + (n.east - z));
         let scale = 1.0 / (1.0 + damping);
         let change = (1.0 - damping) * scale * (z - old)
@@ -76,6 +76,7 @@ fn grid_step(
         let flux_e = straight * (c.east - z) + beside * ((n.east - n.here) + (s.east - s.here));
         let flux_s = straight * (z - s.here) + beside * ((c.east - s.east) + (c.west - s.west));
         let flux_n = straight * (n.here - z) + beside * ((n.east - c.east) + (n.west - c.west));
+        let w = (*grid).thickness;
         let x = vec4<f32>(at.i);
         let y = vec4<f32>(f32(at.j));
         let power = (*grid).exponent;
@@ -107,11 +108,13 @@ fn grid_step(
         grid_heights[old_at] = select(vec4<f32>(0.0), flush(next), columns_open & vec4<bool>(rows_open));
     }
 
-    if grid_dispatch.substep + 1u == (*grid).substeps {
+    if LAST {
+        let last = grid_dispatch.substep + 1u == (*grid).substeps;
         let foam_at = (*grid).base + 3u * stride + offset;
+        let foam = grid_heights[foam_at];
         let excess = clamp(-cross * (*grid).foam_scale - (*grid).foam_onset, vec4<f32>(0.0), vec4<f32>(1.0));
         let open = (at.i > vec4<u32>(0u)) & (at.i + 1u < vec4<u32>(cells.x)) & vec4<bool>(at.j > 0u && at.j + 1u < cells.y);
-        let foam = grid_heights[foam_at] * (*grid).foam_keep + excess * (*grid).foam_growth;
-        grid_heights[foam_at] = select(vec4<f32>(0.0), min(foam, vec4<f32>(1.0)), open);
+        let next = min(foam * (*grid).foam_keep + excess * (*grid).foam_growth, vec4<f32>(1.0));
+        grid_heights[foam_at] = select(foam, select(vec4<f32>(0.0), next, open), vec4<bool>(last));
     }
 }

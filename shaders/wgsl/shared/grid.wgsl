@@ -17,11 +17,7 @@ struct GridParams {
     foam_onset: f32,
     foam_growth: f32,
     foam_keep: f32,
-    first_tile: u32,
-    tile_count: u32,
-    pad_a: u32,
-    pad_b: u32,
-    pad_c: u32,
+    pad: u32,
 }
 
 struct GridSource {
@@ -34,15 +30,14 @@ struct GridSource {
 }
 
 struct GridDispatch {
+    first: u32,
     substep: u32,
-    pad_a: u32,
-    pad_b: u32,
-    pad_c: u32,
+    pad: vec2<u32>,
 }
 
 @group(0) @binding(0) var<uniform> grid_dispatch: GridDispatch;
 @group(0) @binding(1) var<uniform> grid_params: array<GridParams, MAX_GRIDS>;
-// (place, first source, number of sources, -)
+// (column + 2^8 row + 2^16 grid, first source, number of sources, -)
 @group(0) @binding(2) var<storage, read> grid_tiles: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> grid_sources: array<GridSource>;
 // Per grid: z, z (old and new by turns), z of the last tick, foam.
@@ -67,8 +62,8 @@ fn unwrap(at: vec4<u32>, corner: u32, torus: u32) -> vec4<u32> {
 }
 
 fn place_of(tile: u32, local: u32, corner: vec2<u32>, torus: vec2<u32>) -> Place {
-    let column = (tile & 0xffffu) * (TILE / 4u) + local % (TILE / 4u);
-    let row = (tile >> 16u) * TILE + local / (TILE / 4u);
+    let column = (tile & 0xffu) * (TILE / 4u) + local % (TILE / 4u);
+    let row = ((tile >> 8u) & 0xffu) * TILE + local / (TILE / 4u);
     let i = unwrap(vec4<u32>(4u * column) + vec4<u32>(0u, 1u, 2u, 3u), corner.x, torus.x);
     return Place(column, row, i, unwrap(vec4<u32>(row), corner.y, torus.y).x);
 }

@@ -109,13 +109,14 @@ impl Buffers {
         packer: &mut Packer,
         ticks: &VecDeque<Tick>,
     ) -> &wgpu::BindGroup {
-        let most = ticks.iter().map(|tick| tick.substeps.len()).max().unwrap_or(0);
         self.uniforms.clear();
-        self.uniforms.extend((0..most as u32).map(|substep| {
-            let mut slot = Slot::zeroed();
-            slot[0].substep = substep;
-            slot
-        }));
+        for tick in ticks {
+            for (first, substep, _) in tick.dispatches() {
+                let mut slot = Slot::zeroed();
+                slot[0] = GridDispatch { first, substep, ..Zeroable::zeroed() };
+                self.uniforms.push(slot);
+            }
+        }
         let mut stale = self.dispatches.write(device, queue, &self.uniforms);
         stale |= self.params.write(device, queue, &packer.params);
         stale |= self.tiles.write(device, queue, &packer.tiles);

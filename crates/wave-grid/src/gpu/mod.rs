@@ -1,7 +1,7 @@
 //! Grids homed on the GPU: stepped there, drawn there, never read back here.
 //!
-//! All grids share two state buffers and one list of tiles, so a tick costs one dispatch that prepares and one for each
-//! sub-step, however many grids there are. A grid sleeps on the CPU's word alone: when nothing has disturbed it for
+//! All grids share two state buffers and one list of tiles, so a tick costs one dispatch that prepares and two for each
+//! sub-step (tiles without and with cells of the layer), however many grids there are. A grid sleeps on the CPU's word alone: when nothing has disturbed it for
 //! longer than waves and foam last. Tiles of an awake grid are all stepped.
 
 mod buffers;
@@ -20,7 +20,7 @@ use crate::window::{Move, Place};
 use crate::{GridDesc, GridError, Source, Stepping, Window};
 
 use buffers::Buffers;
-use pack::Packer;
+use pack::{Kind, Packer, Work};
 use pass::Passes;
 
 /// Most grids.
@@ -197,7 +197,7 @@ impl GpuGrids {
 
     /// Dispatches that the next [`Self::encode`] will encode; zero when all grids sleep.
     pub fn pending_dispatches(&self) -> usize {
-        self.ticks.iter().map(|tick| 1 + tick.substeps.len()).sum()
+        self.ticks.iter().map(|tick| tick.dispatches().count()).sum()
     }
 
     /// Encodes the queued ticks. Submit the encoder before encoding again.
@@ -209,16 +209,17 @@ impl GpuGrids {
         let state_group = self.buffers.upload(device, queue, &self.passes, &mut self.packer, &self.ticks);
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() });
+        let mut dispatch = 0;
         for (index, tick) in (0..).zip(self.ticks.drain(..)) {
             let params = index * size_of::<TickParams>() as u32;
-            let mut run = |pipeline: &wgpu::ComputePipeline, substep: u32, [tiles, grids]: [u32; 2]| {
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, state_group, &[substep * pass::DISPATCH_STRIDE, params]);
-                pass.dispatch_workgroups(tiles, 1, grids);
-            };
-            run(&self.passes.prepare, 0, tick.prepare);
-            for (substep, covered) in (0..).zip(tick.substeps) {
-                run(&self.passes.step, substep, covered);
+            for (_, _, Work { kind, tiles }) in tick.dispatches() {
+                pass.set_pipeline(match kind {
+                    Kind::Prepare { moved } => &self.passes.prepare[usize::from(moved)],
+                    Kind::Step { layer, last } => &self.passes.step[usize::from(layer)][usize::from(last)],
+                });
+                pass.set_bind_group(0, state_group, &[dispatch * pass::DISPATCH_STRIDE, params]);
+                pass.dispatch_workgroups(tiles, 1, 1);
+                dispatch += 1;
             }
         }
     }

@@ -12,8 +12,10 @@ pub(super) const DISPATCH_STRIDE: u32 = 256;
 pub(super) struct Passes {
     pub(super) state_layout: wgpu::BindGroupLayout,
     pub(super) draw_layout: wgpu::BindGroupLayout,
-    pub(super) prepare: wgpu::ComputePipeline,
-    pub(super) step: wgpu::ComputePipeline,
+    /// For grids that stood, and for ones that may have moved.
+    pub(super) prepare: [wgpu::ComputePipeline; 2],
+    /// Without and with cells of the layer, each without and with the last sub-step's work.
+    pub(super) step: [[wgpu::ComputePipeline; 2]; 2],
     pub(super) draw: wgpu::ComputePipeline,
 }
 
@@ -26,13 +28,14 @@ impl Passes {
         let draws = Slot::Uniform { size: MAX_GRIDS * size_of::<GridDraw>() };
         let state_layout = group_layout(device, "grid state", compute, &state);
         let draw_layout = group_layout(device, "grid draw", compute, &[draws, Slot::Read, Slot::ReadWrite]);
-        let pipeline = |pass: &open_water_shaders::Pass, layout: &wgpu::BindGroupLayout| {
-            compute_pipeline(device, pass, pass.name, &[layout], &[])
+        let pipeline = |pass: &open_water_shaders::Pass, layout: &wgpu::BindGroupLayout, constants: &[(&str, f64)]| {
+            compute_pipeline(device, pass, pass.name, &[layout], constants)
         };
+        let step = |layer, last| pipeline(&shader::STEP, &state_layout, &[("LAYER", layer), ("LAST", last)]);
         Self {
-            prepare: pipeline(&shader::PREPARE, &state_layout),
-            step: pipeline(&shader::STEP, &state_layout),
-            draw: pipeline(&shader::DRAW, &draw_layout),
+            prepare: [0.0, 1.0].map(|moved| pipeline(&shader::PREPARE, &state_layout, &[("MOVED", moved)])),
+            step: [0.0, 1.0].map(|layer| [0.0, 1.0].map(|last| step(layer, last))),
+            draw: pipeline(&shader::DRAW, &draw_layout, &[]),
             state_layout,
             draw_layout,
         }
