@@ -5,7 +5,9 @@ use std::f32::consts::TAU;
 use rayon::prelude::*;
 
 use crate::fft::{LANES, Lanes};
-use crate::{CascadeModes, turns};
+use open_water_shaders::turns;
+
+use crate::CascadeModes;
 
 /// Modes in blocks of [`LANES`] rows: value `[lane]` of cell `block * width + column`. The last block is padded with
 /// modes of amplitude 0.
@@ -88,7 +90,7 @@ impl Held {
         self.now.par_iter_mut().zip(&self.cells).with_min_len(2048).for_each(|(now, cell)| {
             let [a, b, c, d] = &cell.amp;
             for l in 0..LANES {
-                let (sin, cos) = turns::sincos(cell.n[l].wrapping_mul(phase));
+                let [cos, sin] = turns::cos_sin(cell.n[l].wrapping_mul(phase));
                 // h0(k) e^(-i omega t) and conj(h0(-k)) e^(i omega t)
                 let (p_re, p_im) = (a[l] * cos + b[l] * sin, b[l] * cos - a[l] * sin);
                 let (m_re, m_im) = (c[l] * cos - d[l] * sin, d[l] * cos + c[l] * sin);

@@ -51,7 +51,6 @@ mod shape;
 mod spectrum;
 mod synthesis;
 mod table;
-pub mod turns;
 
 pub use error::{Notice, OceanError};
 pub use modes::CascadeModes;
