@@ -52,5 +52,5 @@ fn scenes(sections: &mut Sections) -> Result<(), Failure> {
             "run --release --example boat -- --frames 4 --size 320x180 --backend {backend} --out target/ci/boat-{backend}"
         ))?;
     }
-    sections.cargo("run --release --example embed -- --frames 4 --out target/ci/embed")
+    sections.cargo("run --release --example embed -- --frames 4")
 }
