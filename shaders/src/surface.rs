@@ -82,21 +82,8 @@ impl Default for SurfaceTable {
 /// Layouts shared with WGSL.
 pub const PARAMS: &[crate::ParamLayout] = &[
     param_layout!(SurfaceCascade { offset, tile, size }),
-    param_layout!(SurfaceGrid {
-        corner,
-        cell_size,
-        base,
-        cells
-    }),
-    param_layout!(SurfaceTable {
-        cascade_count,
-        grid_count,
-        time,
-        significant_height,
-        hidden_slope,
-        cascades,
-        grids
-    }),
+    param_layout!(SurfaceGrid { corner, cell_size, base, cells }),
+    param_layout!(SurfaceTable { cascade_count, grid_count, time, significant_height, hidden_slope, cascades, grids }),
 ];
 
 /// Constants that WGSL shares, and the group index of the composite bind group.
@@ -125,22 +112,12 @@ pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     use crate::pipeline::Slot;
     let unfiltered = Slot::TextureArray { filterable: false };
     let filtered = Slot::TextureArray { filterable: true };
-    let table = Slot::Uniform {
-        size: size_of::<SurfaceTable>(),
-    };
+    let table = Slot::Uniform { size: size_of::<SurfaceTable>() };
     crate::pipeline::group_layout(
         device,
         "surface",
         wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        &[
-            table,
-            unfiltered,
-            unfiltered,
-            Slot::Read,
-            filtered,
-            filtered,
-            Slot::Sampler,
-        ],
+        &[table, unfiltered, unfiltered, Slot::Read, filtered, filtered, Slot::Sampler],
     )
 }
 
@@ -148,6 +125,8 @@ pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 pub const TEXT: &str = concat!(
     include_str!("../wgsl/shared/cubic.wgsl"),
     include_str!("../wgsl/shared/surface.wgsl"),
+    include_str!("../wgsl/shared/looks_grid.wgsl"),
+    include_str!("../wgsl/shared/looks_detail.wgsl"),
     include_str!("../wgsl/shared/looks.wgsl"),
 );
 

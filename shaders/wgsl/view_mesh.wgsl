@@ -19,7 +19,7 @@ fn mesh_vertex(
     let p = vec4<f32>(position, 1.0);
     let world = vec3<f32>(dot(row_x, p), dot(row_y, p), dot(row_z, p));
     let n = vec3<f32>(dot(row_x.xyz, normal), dot(row_y.xyz, normal), dot(row_z.xyz, normal));
-    return MeshVertex(view.clip_from_world * vec4<f32>(world, 1.0), world, n, vec4<f32>(color.rgb * tint.rgb, color.a));
+    return MeshVertex(view.clip_from_world * vec4<f32>(world, 1.0), world, n, vec4<f32>(linear_from_srgb(color.rgb) * tint.rgb, color.a));
 }
 
 @fragment

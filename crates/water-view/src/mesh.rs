@@ -14,7 +14,7 @@ pub struct MeshVertex {
     pub position: [f32; 3],
     /// Outward normal, unit length.
     pub normal: [f32; 3],
-    /// Linear colour as 0 to 255; alpha is gloss: 0 dull, 255 wet paint.
+    /// sRGB colour, 0 to 255; alpha is gloss: 0 dull, 255 wet paint.
     pub color: [u8; 4],
 }
 

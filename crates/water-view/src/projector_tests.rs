@@ -32,7 +32,7 @@ fn all_that_is_seen_lies_on_the_grid() {
                         let t = (level - eye.y) / ray.y;
                         let hit = eye + t * ray;
                         let away = Vec2::new(hit.x - eye.x, hit.z - eye.z).length();
-                        if !(t > 0.0) || away > 0.9 * grid.far {
+                        if t <= 0.0 || away > 0.9 * grid.far {
                             continue;
                         }
                         for side in [Vec2::ZERO, Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y] {

@@ -1,0 +1,178 @@
+//! The command line of every scene.
+
+use std::path::PathBuf;
+
+use clap::{Parser, ValueEnum};
+use open_water::{Closure, Hull, OpenWaterDesc, Preset, SeaState};
+
+use crate::SceneError;
+
+/// What computes and draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Backend {
+    /// A GPU if there is one, else a software adapter, else the CPU.
+    Auto,
+    /// An adapter, hardware or software; an error without one.
+    Gpu,
+    /// No adapter: everything on the CPU, drawn from above.
+    Cpu,
+}
+
+/// Quality in one word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Quality {
+    /// Integrated graphics.
+    Low,
+    /// The default.
+    Medium,
+    /// A strong GPU.
+    High,
+    /// The set-up of Yang et al. 2017: Phillips, FFT 1024^2, 5-point grid 512^2, projected grid 128^2, 1440x900.
+    Paper,
+}
+
+/// A boat on an open sea with its wake, among flotsam.
+///
+/// With a display it opens a window; without one, or with --frames or --out, it writes numbered PNGs and a summary.
+/// Keys: W/S or up/down throttle, A/D or left/right steer, P autopilot, C orbit or chase camera (drag and wheel),
+/// space pause, O overlay, Esc quit.
+#[derive(Debug, Clone, Parser)]
+pub struct Options {
+    /// Draw N frames of 1/30 s into PNGs instead of opening a window [default without a display: 300]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub frames: Option<u32>,
+    /// Folder of the PNGs and of summary.txt [default: out]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Size of the picture, 16x16 to 8192x8192 [default: 1280x720; paper 1440x900]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// What computes and draws
+    #[arg(long, value_enum, default_value = "auto")]
+    pub backend: Backend,
+    /// Quality
+    #[arg(long, value_enum, default_value = "medium")]
+    pub preset: Quality,
+    /// Sea state: wind and fetch, Hs and Tp, or a buoy's spectrum [default: Hs 1.8 m, Tp 7 s; paper Phillips, 10 m/s]
+    #[arg(long, value_name = "FILE")]
+    pub sea: Option<PathBuf>,
+    /// Hull mesh, STL, OBJ or glTF, metres, y up, x forward; open tops are capped [default: an 8 m launch]
+    #[arg(long, value_name = "FILE")]
+    pub hull: Option<PathBuf>,
+    /// Chooses the phases of the waves and where the flotsam lies
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+}
+
+/// What the files of the command line hold.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// The water.
+    pub water: OpenWaterDesc,
+    /// The boat's hull, closed.
+    pub hull: Hull,
+    /// Whether the hull is the one shipped.
+    pub own_hull: bool,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let parts = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    match parts {
+        Some(size) if size.iter().all(|n| (16..=8192).contains(n)) => Ok(size),
+        Some([w, h]) => Err(format!("{w}x{h} is out of 16x16 to 8192x8192")),
+        None => Err("not of the form WxH, as 1280x720".into()),
+    }
+}
+
+impl Options {
+    /// The preset of the water.
+    pub fn preset(&self) -> Preset {
+        match self.preset {
+            Quality::Low => Preset::Low,
+            Quality::Medium => Preset::Medium,
+            Quality::High => Preset::High,
+            Quality::Paper => Preset::Paper,
+        }
+    }
+
+    /// Width and height of the picture.
+    pub fn size(&self) -> [u32; 2] {
+        self.size.unwrap_or(if self.preset == Quality::Paper { [1440, 900] } else { [1280, 720] })
+    }
+
+    /// Columns and rows of the projected grid.
+    pub fn view_grid(&self) -> [u32; 2] {
+        match self.preset {
+            Quality::Low => [160, 224],
+            Quality::Medium => [256, 384],
+            Quality::High => [512, 768],
+            Quality::Paper => [128, 128],
+        }
+    }
+
+    /// Samples per pixel.
+    pub fn samples(&self) -> u32 {
+        if self.preset == Quality::Low { 1 } else { 4 }
+    }
+
+    /// Whether to try for a window.
+    pub fn wants_window(&self) -> bool {
+        self.frames.is_none() && self.out.is_none() && self.backend != Backend::Cpu
+    }
+
+    /// Reads the files.
+    pub(crate) fn setup(&self) -> Result<Setup, SceneError> {
+        let mut water = self.preset().water();
+        water.seed = self.seed;
+        water.sea = match (&self.sea, self.preset) {
+            (Some(path), _) => SeaState::from_file(path).map_err(SceneError::usage)?,
+            (None, Quality::Paper) => SeaState::phillips(10.0, 0.5),
+            (None, _) => SeaState::parse("moderate.txt", include_str!("../assets/seas/moderate.txt"))
+                .map_err(SceneError::usage)?,
+        };
+        let hull = match &self.hull {
+            Some(path) => Hull::from_file(path, Closure::Cap),
+            None => {
+                let bytes = include_bytes!("../assets/hulls/launch.glb");
+                open_water::TriMesh::from_bytes("launch.glb", bytes).and_then(|m| Hull::from_mesh(&m, Closure::Cap))
+            }
+        };
+        Ok(Setup { water, hull: hull.map_err(SceneError::usage)?, own_hull: self.hull.is_none() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(parse_size("1280x720"), Ok([1280, 720]));
+        assert!(parse_size("1280").is_err());
+        assert!(parse_size("0x720").unwrap_err().contains("0x720"));
+        assert!(parse_size("-1x720").is_err());
+    }
+
+    #[test]
+    fn shipped_files_are_good() {
+        let options = Options::try_parse_from(["boat"]).unwrap();
+        let setup = options.setup().unwrap();
+        assert!(setup.own_hull && setup.hull.volume() > 5.0);
+        assert!(options.wants_window());
+    }
+
+    #[test]
+    fn bad_files_are_named() {
+        let options = Options::try_parse_from(["boat", "--sea", "nowhere.txt"]).unwrap();
+        assert!(options.setup().unwrap_err().to_string().contains("nowhere.txt"));
+        let options = Options::try_parse_from(["boat", "--hull", "nowhere.stl"]).unwrap();
+        let error = options.setup().unwrap_err();
+        assert!(error.to_string().contains("nowhere.stl"), "{error}");
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Options::command().debug_assert();
+    }
+}

@@ -1,0 +1,136 @@
+//! Meshes of boats, crates and barrels.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+use open_water::{Hull, TriMesh};
+use water_view::{MeshData, MeshVertex};
+
+const PAINT: [u8; 4] = [232, 233, 228, 120];
+const KEEL: [u8; 4] = [120, 30, 24, 60];
+const DECK: [u8; 4] = [158, 132, 100, 20];
+const TRIM: [u8; 4] = [34, 62, 104, 150];
+const GLASS: [u8; 4] = [60, 76, 84, 255];
+const RUBBER: [u8; 4] = [52, 52, 54, 90];
+
+/// Triangles that meet below this angle shade as one smooth surface (cosine).
+const CREASE: f32 = 0.8;
+
+/// A mesh for drawing from a hull's triangles: smooth but for creases, coloured by `paint` from a triangle's centre and
+/// normal.
+pub fn hull_mesh(mesh: &TriMesh, paint: impl Fn(Vec3, Vec3) -> [u8; 4]) -> MeshData {
+    let corner = |t: &[u32], k: usize| mesh.vertices[t[k] as usize];
+    let normals: Vec<Vec3> = mesh
+        .indices
+        .chunks_exact(3)
+        .map(|t| (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)))
+        .collect();
+    let mut around: HashMap<u32, Vec<usize>> = HashMap::new();
+    for (face, t) in mesh.indices.chunks_exact(3).enumerate() {
+        for index in t {
+            around.entry(*index).or_default().push(face);
+        }
+    }
+    let mut data = MeshData::default();
+    for (face, t) in mesh.indices.chunks_exact(3).enumerate() {
+        let own = normals[face].normalize_or(Vec3::Y);
+        let color = paint((corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0, own);
+        for (k, index) in t.iter().enumerate() {
+            let smooth: Vec3 = around[index]
+                .iter()
+                .map(|other| normals[*other])
+                .filter(|n| n.normalize_or_zero().dot(own) > CREASE)
+                .sum();
+            data.indices.push(data.vertices.len() as u32);
+            data.vertices.push(MeshVertex {
+                position: corner(t, k).into(),
+                normal: smooth.normalize_or(own).into(),
+                color,
+            });
+        }
+    }
+    data
+}
+
+/// The boat: its hull painted, keel below `waterline` (height in the hull's frame), and with `fittings` a console, a
+/// windscreen, a bench and an outboard engine in proportion to the hull.
+pub fn boat_mesh(hull: &Hull, waterline: f32, fittings: bool) -> MeshData {
+    let (low, high) = hull.bounds();
+    let (length, beam) = (high.x - low.x, high.z - low.z);
+    let none = TriMesh::default();
+    let mut data = hull_mesh(hull.mesh().unwrap_or(&none), |at, normal| {
+        if normal.y > 0.8 && at.y > waterline {
+            DECK
+        } else if at.y < waterline + 0.015 * length {
+            KEEL
+        } else if at.y > high.y - 0.16 * (high.y - low.y) {
+            TRIM
+        } else {
+            PAINT
+        }
+    });
+    if !fittings {
+        return data;
+    }
+    let middle = 0.5 * (low.z + high.z);
+    let deck = waterline + 0.75 * (high.y - waterline);
+    let at = |x: f32, y: f32, z: f32| Vec3::new(low.x + x * length, deck + y * beam, middle + z * beam);
+    let half = |x: f32, y: f32, z: f32| Vec3::new(x * length, y * beam, z * beam);
+    data.cuboid(at(0.45, 0.16, 0.0), half(0.05, 0.16, 0.17), PAINT);
+    data.cuboid(at(0.43, 0.335, 0.0), half(0.055, 0.012, 0.18), DECK);
+    data.cuboid(at(0.505, 0.4, 0.0), half(0.006, 0.09, 0.17), GLASS);
+    data.cuboid(at(0.29, 0.1, 0.0), half(0.035, 0.1, 0.2), TRIM);
+    data.cuboid(at(0.26, 0.24, 0.0), half(0.008, 0.09, 0.2), TRIM);
+    data.cuboid(at(-0.015, 0.14, 0.0), half(0.03, 0.13, 0.08), RUBBER);
+    data.cuboid(at(-0.02, -0.12, 0.0), half(0.012, 0.2, 0.03), RUBBER);
+    data
+}
+
+/// A crate of this size, metres, with battens.
+pub fn crate_box(size: Vec3) -> MeshData {
+    let mut data = MeshData::default();
+    let wood = [148, 122, 88, 10];
+    let batten = [112, 88, 60, 10];
+    data.cuboid(Vec3::ZERO, 0.48 * size, wood);
+    for (y, z) in [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)] {
+        let edge = 0.45 * size;
+        data.cuboid(Vec3::new(0.0, y * edge.y, z * edge.z), Vec3::new(0.5, 0.055, 0.055) * size, batten);
+        data.cuboid(Vec3::new(y * edge.x, 0.0, z * edge.z), Vec3::new(0.055, 0.5, 0.055) * size, batten);
+        data.cuboid(Vec3::new(y * edge.x, z * edge.y, 0.0), Vec3::new(0.055, 0.055, 0.5) * size, batten);
+    }
+    data
+}
+
+/// A barrel along x, metres, with hoops.
+pub fn barrel(radius: f32, length: f32) -> MeshData {
+    let mut data = MeshData::default();
+    let x = |s: f32| Vec3::X * (s * length);
+    data.cylinder(x(-0.5), x(0.5), 0.96 * radius, 20, [205, 205, 205, 130]);
+    for s in [-0.47, -0.16, 0.16, 0.47] {
+        data.cylinder(x(s - 0.02), x(s + 0.02), radius, 20, [120, 120, 120, 130]);
+    }
+    data
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cube_stays_sharp_and_a_barrel_smooth() {
+        let hull = Hull::from_mesh(&cube(), open_water::Closure::Require).unwrap();
+        let data = hull_mesh(hull.mesh().unwrap(), |_, _| [0; 4]);
+        for v in &data.vertices {
+            let n = Vec3::from(v.normal).abs();
+            assert!(n.max_element() > 0.999, "{n}");
+        }
+        let around = barrel(0.3, 0.9);
+        assert!(around.indices.iter().all(|i| (*i as usize) < around.vertices.len()));
+    }
+
+    fn cube() -> TriMesh {
+        let mut data = MeshData::default();
+        data.cuboid(Vec3::ZERO, Vec3::ONE, [0; 4]);
+        TriMesh { vertices: data.vertices.iter().map(|v| v.position.into()).collect(), indices: data.indices }
+    }
+}

@@ -1,0 +1,93 @@
+//! What a scene tells the framework.
+
+use glam::{Quat, Vec2, Vec3};
+use open_water::{OpenWater, Tick};
+use water_view::MeshView;
+
+use crate::SceneError;
+use crate::options::{Options, Setup};
+
+/// What the player asks for.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Helm {
+    /// `None`: the scene steers by itself.
+    pub manual: Option<[f32; 2]>,
+}
+
+/// What cameras look at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Subject {
+    /// Drawn position, local metres.
+    pub position: Vec3,
+    /// Drawn attitude; x is forward.
+    pub orientation: Quat,
+    /// Length, metres.
+    pub length: f32,
+}
+
+/// A flat shape on the top view: a convex outline (x, z) and its colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// Corners in order, local metres.
+    pub outline: Vec<Vec2>,
+    /// sRGB.
+    pub color: [u8; 3],
+}
+
+/// A runnable scene.
+pub trait Scene: Sized + 'static {
+    /// Its name, for the window and the summary.
+    const NAME: &'static str;
+
+    /// Builds the scene around a water that has no bodies yet.
+    ///
+    /// # Errors
+    /// Something in `setup` does not fit.
+    fn new(options: &Options, setup: &Setup, water: OpenWater) -> Result<Self, SceneError>;
+
+    /// The water.
+    fn water(&self) -> &OpenWater;
+
+    /// The water.
+    fn water_mut(&mut self) -> &mut OpenWater;
+
+    /// Runs one tick.
+    ///
+    /// # Errors
+    /// The simulation went wrong.
+    fn tick(&mut self, tick: Tick, helm: Helm) -> Result<(), SceneError>;
+
+    /// Uploads the meshes, once.
+    fn build(&mut self, device: &wgpu::Device, meshes: &mut MeshView);
+
+    /// Says where they stand at the drawn moment.
+    fn place(&mut self, queue: &wgpu::Queue, meshes: &mut MeshView);
+
+    /// What the camera follows.
+    fn subject(&self) -> Subject;
+
+    /// Gets ready for a view from above of the drawn moment.
+    fn look_down(&mut self);
+
+    /// The bodies as flat shapes, for the view from above.
+    fn marks(&self) -> Vec<Mark>;
+
+    /// Foam of the wake at a place, 0 to 1, for the view from above.
+    fn foam(&self, at: Vec2) -> f32;
+
+    /// Lines for the overlay.
+    fn status(&self) -> String;
+
+    /// Lines for the summary: name and value.
+    fn summary(&self) -> Vec<(&'static str, String)>;
+}
+
+/// Runs the ticks that are due after `dt` seconds and returns how many.
+pub(crate) fn advance<S: Scene>(scene: &mut S, dt: f32, helm: Helm) -> Result<u32, SceneError> {
+    let mut count = 0;
+    for tick in scene.water_mut().advance(dt) {
+        scene.tick(tick, helm)?;
+        count += 1;
+    }
+    Ok(count)
+}

@@ -1,0 +1,53 @@
+// Height of a grid at a point between its four nearest cells; zero outside its window.
+fn grid_height(index: u32, point: vec2<f32>) -> f32 {
+    let grid = surface_table.grids[index];
+    let x = (point - grid.corner) / grid.cell_size - 0.5;
+    let base = floor(x);
+    if any(base < vec2<f32>(0.0)) || any(base > vec2<f32>(grid.cells) - 2.0) {
+        return 0.0;
+    }
+    let t = x - base;
+    let at = vec2<u32>(base);
+    let i = grid.base + at.y * grid.cells.x + at.x;
+    let j = i + grid.cells.x;
+    return mix(
+        mix(surface_grids[i].x, surface_grids[i + 1u].x, t.x),
+        mix(surface_grids[j].x, surface_grids[j + 1u].x, t.x),
+        t.y,
+    );
+}
+
+// Height of all grids for a vertex: a tent as wide as the footprint takes out what the mesh could not carry.
+fn grids_vertex(point: vec2<f32>, footprint: f32) -> f32 {
+    var sum = 0.0;
+    for (var g = 0u; g < surface_table.grid_count; g++) {
+        let width = footprint / surface_table.grids[g].cell_size;
+        if width < 0.5 {
+            sum += grid_at(g, point).x;
+        } else if width < 32.0 {
+            let step = 0.5 * footprint;
+            var mean = 0.0;
+            for (var k = 0u; k < 9u; k++) {
+                let d = vec2<f32>(f32(k % 3u) - 1.0, f32(k / 3u) - 1.0);
+                let weight = (2.0 - abs(d.x)) * (2.0 - abs(d.y)) / 16.0;
+                mean += weight * grid_height(g, point + step * d);
+            }
+            sum += mean * (1.0 - smoothstep(16.0, 32.0, width));
+        }
+    }
+    return sum;
+}
+
+// All grids for shading: waves too short for the footprint fade.
+fn grids_look(point: vec2<f32>, footprint: f32) -> vec4<f32> {
+    var sum = vec4<f32>(0.0);
+    for (var g = 0u; g < surface_table.grid_count; g++) {
+        let width = footprint / surface_table.grids[g].cell_size;
+        if width < 32.0 {
+            let waves = 1.0 - smoothstep(2.0, 8.0, width);
+            let foam = 1.0 - smoothstep(8.0, 32.0, width);
+            sum += grid_at(g, point) * vec4<f32>(waves, waves, waves, foam);
+        }
+    }
+    return sum;
+}
