@@ -152,6 +152,7 @@ impl Grids {
     }
 
     /// Cells of all grids.
+    #[cfg(feature = "gpu")]
     pub(crate) fn pool_cells(&self) -> u32 {
         self.list.iter().map(Grid::cell_count).sum()
     }

@@ -30,12 +30,12 @@ pub(crate) fn ci(sections: &mut Sections, args: &TestArgs) -> Result<(), Failure
     sections.run("evidence", |s| s.cargo("run --release --bin evidence -- --quick --out target/ci/evidence"))
 }
 
-/// The crates without their default features: tested together, compiled one by one, and no wgpu among what they need.
+/// The crates without their default features: tested together, linted one by one, and no wgpu among what they need.
 fn crates_apart(sections: &mut Sections) -> Result<(), Failure> {
     let packages: String = WITHOUT_WGPU.iter().map(|name| format!(" -p {name}")).collect();
     sections.cargo(&format!("test{packages} --no-default-features"))?;
     for name in WITHOUT_WGPU {
-        sections.cargo(&format!("check --quiet -p {name} --no-default-features"))?;
+        sections.cargo(&format!("clippy --quiet -p {name} --no-default-features -- -D warnings"))?;
         let (tree, _) =
             sections.cargo_output(&format!("tree -e normal --prefix none -p {name} --no-default-features"))?;
         if tree.lines().any(|line| line.starts_with("wgpu ")) {
