@@ -121,9 +121,9 @@ fn a_thousand_ticks_equal_the_cpu() {
             twins.center_on(2, DVec2::new(1e5, 1e5));
         }
         twins.center_on(2, DVec2::new(if t < 500 { -80.0 } else { 60.0 } * time, 40.0 * time));
-        for k in 0..3 {
+        for (k, desc) in descs.iter().enumerate() {
             let middle = twins.pairs[k].cpu.window().world_corner()
-                + DVec2::new(f64::from(descs[k].cells[0]), f64::from(descs[k].cells[1])) * 0.25;
+                + DVec2::new(f64::from(desc.cells[0]), f64::from(desc.cells[1])) * 0.25;
             let [x, z] = middle.as_vec2().to_array();
             let wobble = (t as f32 * 0.1).sin();
             twins.add(k, stone(x + 3.0 * wobble, z, 1.0 + 0.5 * wobble, 0.4 * (t as f32 * 0.23).sin()));
