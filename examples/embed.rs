@@ -1,11 +1,10 @@
-//! The smallest complete winit + wgpu program of one's own that draws the sea with its own shader: the device, the
-//! render pass and the shader are yours, the water comes through `surface_bind_group()` and the WGSL include.
-//! `--frames N` ends after N frames and works without a display. Copy it.
-
-use std::error::Error;
-use std::sync::Arc;
+//! The smallest complete winit + wgpu program of one's own that draws the sea with its own shader: device, pass and shader
+//! are yours, the water comes through `surface_bind_group()` and the WGSL include. Without a display it draws `--frames N`.
 
 use open_water::{BodyStates, Consumers, OpenWater, OpenWaterDesc, View};
+use open_water_shaders::{pipeline, surface};
+use std::error::Error;
+use std::sync::Arc;
 use wgpu::VertexState;
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
@@ -22,9 +21,9 @@ struct Out { @builtin(position) clip: vec4<f32>, @location(0) rest: vec2<f32> }
 }
 @fragment fn fs(in: Out) -> @location(0) vec4<f32> {
     let look = surface_shading(in.rest, max(length(dpdx(in.rest)), length(dpdy(in.rest))));
-    let sky = pow(1.0 - clamp(look.normal.y - 0.4 * look.normal.z, 0.0, 1.0), 0.7);
-    let water = mix(vec3<f32>(0.01, 0.09, 0.13), vec3<f32>(0.6, 0.75, 0.85), sky) + look.foam;
-    return vec4<f32>(mix(water, vec3<f32>(0.6, 0.75, 0.85), in.rest.y / 255.0), 1.0);
+    let sky = vec3<f32>(0.6, 0.75, 0.85);
+    let water = mix(sky, vec3<f32>(0.01, 0.09, 0.13), clamp(look.normal.y - 0.4 * look.normal.z, 0.0, 1.0)) + look.foam;
+    return vec4<f32>(mix(water, sky, in.rest.y / 255.0), 1.0);
 }";
 
 struct Sea {
@@ -39,11 +38,9 @@ impl Sea {
         let desc = wgpu::DeviceDescriptor { required_limits: OpenWater::required_limits(), ..Default::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&desc))?;
         let water = OpenWater::new(&device, &queue, OpenWaterDesc::default())?;
-        let text = open_water_shaders::surface::wgsl(0) + SHADER; // the water is bind group 0
-        let source = wgpu::ShaderSource::Wgsl(text.into());
+        let source = wgpu::ShaderSource::Wgsl((surface::wgsl(0) + SHADER).into()); // the water is bind group 0
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some("sea"), source });
-        let groups = [water.surface_layout().ok_or("no device")?];
-        let layout = open_water_shaders::pipeline::pipeline_layout(&device, "sea", &groups);
+        let layout = pipeline::pipeline_layout(&device, "sea", &[water.surface_layout().ok_or("no device")?]);
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("sea"),
             layout: Some(&layout),
@@ -72,8 +69,7 @@ impl Sea {
         for tick in self.water.advance(dt) {
             self.water.tick(tick, &mut BodyStates::default()).expect("ticks come in order");
         }
-        let eye = View { eye: glam::Vec3::new(0.0, 8.0, -4.0), pixel_angle: 1e-3 };
-        let plan = self.water.plan(&[eye], Consumers::NORMALS | Consumers::FOAM);
+        let plan = self.water.plan(&[View { eye: glam::Vec3::Y * 8.0, pixel_angle: 1e-3 }], Consumers::all());
         let mut encoder = self.device.create_command_encoder(&Default::default());
         self.water.encode(&plan, &mut encoder);
         let load = wgpu::LoadOp::Clear(wgpu::Color { r: 0.6, g: 0.75, b: 0.85, a: 1.0 });
@@ -95,35 +91,31 @@ impl Sea {
 }
 
 /// The window and what draws into it, once there are both.
-#[derive(Default)]
 struct App(Option<(Arc<Window>, wgpu::Surface<'static>, Sea)>);
 
-impl App {
-    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), Box<dyn Error>> {
-        let window = Arc::new(event_loop.create_window(Window::default_attributes().with_resizable(false))?);
-        let display = event_loop.owned_display_handle();
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(Box::new(display)));
-        let surface = instance.create_surface(window.clone())?;
-        let options = wgpu::RequestAdapterOptions { compatible_surface: Some(&surface), ..Default::default() };
-        let adapter = pollster::block_on(instance.request_adapter(&options))?;
-        let size = window.inner_size();
-        let config = surface.get_default_config(&adapter, size.width, size.height).ok_or("no format")?;
-        let sea = Sea::new(&adapter, config.format)?;
-        surface.configure(&sea.device, &config);
-        window.request_redraw();
-        self.0 = Some((window, surface, sea));
-        Ok(())
-    }
+fn open(event_loop: &ActiveEventLoop) -> Result<(Arc<Window>, wgpu::Surface<'static>, Sea), Box<dyn Error>> {
+    let window = Arc::new(event_loop.create_window(Window::default_attributes().with_resizable(false))?);
+    let display = Box::new(event_loop.owned_display_handle());
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(display));
+    let surface = instance.create_surface(window.clone())?;
+    let options = wgpu::RequestAdapterOptions { compatible_surface: Some(&surface), ..Default::default() };
+    let adapter = pollster::block_on(instance.request_adapter(&options))?;
+    let size = window.inner_size();
+    let config = surface.get_default_config(&adapter, size.width, size.height).ok_or("no format")?;
+    let sea = Sea::new(&adapter, config.format)?;
+    surface.configure(&sea.device, &config);
+    window.request_redraw();
+    Ok((window, surface, sea))
 }
 
 impl ApplicationHandler for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        self.open(event_loop).unwrap_or_else(|error| panic!("{error}"));
+        self.0 = open(event_loop).inspect_err(|error| eprintln!("{error}")).ok();
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         use wgpu::CurrentSurfaceTexture::{Suboptimal, Success};
-        let Some((window, surface, sea)) = &mut self.0 else { return };
+        let Some((window, surface, sea)) = &mut self.0 else { return event_loop.exit() };
         if event == WindowEvent::CloseRequested {
             event_loop.exit();
         } else if event == WindowEvent::RedrawRequested {
@@ -137,7 +129,7 @@ impl ApplicationHandler for App {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let Err(why) = EventLoop::new().map(|events| events.run_app(&mut App::default())) else { return Ok(()) };
+    let Err(why) = EventLoop::new().map(|events| events.run_app(&mut App(None))) else { return Ok(()) };
     let frames = std::env::args().skip_while(|arg| arg != "--frames").nth(1).map_or(Ok(3), |n| n.parse::<u32>())?;
     eprintln!("{why}: drawing {frames} frames into a texture");
     let adapter = pollster::block_on(wgpu::Instance::default().request_adapter(&Default::default()))?;

@@ -17,6 +17,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// What is said of it: name, API, whether it is software.
     pub name: String,
+    /// Whether the processor stands in for a GPU.
+    pub software: bool,
     errors: Arc<Mutex<Vec<String>>>,
 }
 
@@ -91,7 +93,8 @@ impl Pick {
 impl Gpu {
     fn open(adapter: wgpu::Adapter) -> Result<Self, SceneError> {
         let info = adapter.get_info();
-        let kind = if info.device_type == wgpu::DeviceType::Cpu { ", software" } else { "" };
+        let software = info.device_type == wgpu::DeviceType::Cpu;
+        let kind = if software { ", software" } else { "" };
         let name = format!("{} ({}{kind})", info.name, info.backend);
         let limits = OpenWater::required_limits().using_resolution(adapter.limits());
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
@@ -107,7 +110,7 @@ impl Gpu {
                 list.push(error.to_string());
             }
         }));
-        Ok(Self { adapter, device, queue, name, errors })
+        Ok(Self { adapter, device, queue, name, software, errors })
     }
 
     /// Fails if the device has reported an error since the last call.

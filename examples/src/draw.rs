@@ -40,7 +40,7 @@ impl Painter {
     ) -> Result<Self, SceneError> {
         let desc = ViewDesc {
             color_format: format,
-            samples: options.samples(),
+            samples: options.samples(gpu.software),
             grid: options.view_grid(),
             ..ViewDesc::default()
         };

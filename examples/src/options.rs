@@ -103,16 +103,26 @@ impl Options {
     /// Columns and rows of the projected grid.
     pub fn view_grid(&self) -> [u32; 2] {
         match self.preset {
-            Quality::Low => [160, 224],
-            Quality::Medium => [256, 384],
+            Quality::Low => [128, 192],
+            Quality::Medium => [192, 320],
             Quality::High => [512, 768],
             Quality::Paper => [128, 128],
         }
     }
 
-    /// Samples per pixel.
-    pub fn samples(&self) -> u32 {
-        if self.preset == Quality::Low { 1 } else { 4 }
+    /// Samples per pixel; a software adapter draws several only for the highest quality.
+    pub fn samples(&self, software: bool) -> u32 {
+        match self.preset {
+            Quality::Low => 1,
+            Quality::High => 4,
+            Quality::Medium | Quality::Paper => {
+                if software {
+                    1
+                } else {
+                    4
+                }
+            }
+        }
     }
 
     /// Whether to try for a window.

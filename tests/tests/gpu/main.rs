@@ -11,3 +11,5 @@ mod ocean_looks;
 mod readback;
 mod shaders;
 mod surface;
+mod view_picture;
+mod view_stage;
