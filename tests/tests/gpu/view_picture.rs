@@ -96,12 +96,13 @@ fn a_still_picture_is_still_and_a_moved_one_only_moves() {
         let mut take = |look: &ViewParams| frame(&context, &stage, &mut view, look, SIZE, Draw::All);
         let first = take(&look);
         assert!(take(&look).color == first.color, "two frames of one moment differ");
-        // Half a pixel: no more than a photograph would change; without filtering this is 8 and more.
+        // Half a pixel: up to .66 levels with the filters, 5 without.
         let half = difference(&first, &take(&shifted(look, [0.5, 0.0], SIZE)), 0);
-        assert!(half < 4.0, "half a pixel changes the picture by {half} levels at {height} m");
-        // Whole pixels: the same picture, elsewhere. What is left is dither, and vertices that stand elsewhere.
+        assert!(half < 0.9, "half a pixel changes the picture by {half} levels at {height} m");
+        // Whole pixels: the same picture, elsewhere. What is left is dither, and vertices that stand elsewhere: .51 levels,
+        // .79 when the mesh carries waves it cannot.
         let whole = difference(&first, &take(&shifted(look, [6.0, 0.0], SIZE)), 6);
-        assert!(whole < 1.5, "a pan of six pixels changes the picture by {whole} levels at {height} m");
+        assert!(whole < 0.6, "a pan of six pixels changes the picture by {whole} levels at {height} m");
     }
 }
 
@@ -125,7 +126,7 @@ fn both_directions_of_depth_and_all_sample_counts_agree() {
     let many = ViewDesc { samples: 4, ..desc() };
     let many = render(&context, &stage, &many, &look, SIZE, Draw::All);
     let apart = difference(&reverse, &many, 0);
-    assert!(apart < 3.0, "four samples differ from one by {apart} levels");
+    assert!(apart < 0.5, "four samples differ from one by {apart} levels");
     assert!(many.color.iter().all(|c| c[3] == 255), "sea and sky cover everything");
 }
 
