@@ -16,7 +16,7 @@ const FLOTSAM: u32 = 200;
 const COURSE: f32 = 60.0;
 const RING: [f32; 2] = [22.0, 98.0];
 /// Nothing floats closer to the course, metres.
-const CLEAR: f32 = 4.0;
+const CLEAR: f32 = 7.0;
 /// Full speed, m/s, and the autopilot's throttle.
 const SPEED: f32 = 12.0;
 const CRUISE: f32 = 0.75;

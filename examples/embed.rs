@@ -6,10 +6,9 @@ use open_water_shaders::{pipeline, surface};
 use std::error::Error;
 use std::sync::Arc;
 use wgpu::VertexState;
-use winit::application::ApplicationHandler;
-use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::window::{Window, WindowId};
+use winit::{application::ApplicationHandler, event::WindowEvent};
 
 /// 255 x 255 cells of a metre, moved by the water, lit by its normal; drawn from far to near instead of a depth buffer.
 const SHADER: &str = "
@@ -22,7 +21,8 @@ struct Out { @builtin(position) clip: vec4<f32>, @location(0) rest: vec2<f32> }
 @fragment fn fs(in: Out) -> @location(0) vec4<f32> {
     let look = surface_shading(in.rest, max(length(dpdx(in.rest)), length(dpdy(in.rest))));
     let sky = vec3<f32>(0.6, 0.75, 0.85);
-    let water = mix(sky, vec3<f32>(0.01, 0.09, 0.13), clamp(look.normal.y - 0.4 * look.normal.z, 0.0, 1.0)) + look.foam;
+    let facing = dot(look.normal, normalize(vec3<f32>(-in.rest.x, 8.0, -4.0 - in.rest.y)));
+    let water = mix(vec3<f32>(0.01, 0.07, 0.1), sky, pow(1.0 - clamp(facing, 0.0, 1.0), 4.0)) + 0.6 * look.foam;
     return vec4<f32>(mix(water, sky, in.rest.y / 255.0), 1.0);
 }";
 

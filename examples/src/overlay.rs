@@ -16,7 +16,7 @@ pub(crate) struct Overlay {
     group: wgpu::BindGroup,
     screen: wgpu::Buffer,
     dots: wgpu::Buffer,
-    list: Vec<[f32; 3]>,
+    list: Vec<[f32; 6]>,
 }
 
 impl Overlay {
@@ -36,7 +36,7 @@ impl Overlay {
             })
         };
         let screen = buffer(16, wgpu::BufferUsages::UNIFORM);
-        let dots = buffer((MAX_DOTS * size_of::<[f32; 3]>()) as u64, wgpu::BufferUsages::VERTEX);
+        let dots = buffer((MAX_DOTS * size_of::<[f32; 6]>()) as u64, wgpu::BufferUsages::VERTEX);
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("overlay"),
             layout: Some(&pipeline_layout(device, "overlay", &[&layout])),
@@ -45,9 +45,9 @@ impl Overlay {
                 entry_point: Some("overlay_vertex"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers: &[Some(wgpu::VertexBufferLayout {
-                    array_stride: size_of::<[f32; 3]>() as u64,
+                    array_stride: size_of::<[f32; 6]>() as u64,
                     step_mode: wgpu::VertexStepMode::Instance,
-                    attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32],
+                    attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x2],
                 })],
             },
             primitive: wgpu::PrimitiveState {
@@ -60,7 +60,11 @@ impl Overlay {
                 module: &module,
                 entry_point: Some("overlay_fragment"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(format.into())],
+                targets: &[Some(wgpu::ColorTargetState {
+                    format,
+                    blend: Some(wgpu::BlendState::ALPHA_BLENDING),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
             }),
             multiview_mask: None,
             cache: None,
@@ -69,7 +73,7 @@ impl Overlay {
         Self { pipeline, group, screen, dots, list: Vec::new() }
     }
 
-    /// Draws `text` over `target`, dark below light so that it reads on any water.
+    /// Draws `text` over `target`, on a dark panel so that it reads on any water.
     pub(crate) fn draw(
         &mut self,
         gpu: &Gpu,
@@ -79,14 +83,16 @@ impl Overlay {
         encoder: &mut wgpu::CommandEncoder,
     ) {
         self.list.clear();
-        for (shift, light) in [(1.0, 0.0), (0.0, 0.9)] {
-            font::dots(text, |x, y| {
-                let at = |v: usize| MARGIN + DOT * v as f32 + shift;
-                self.list.push([at(x), at(y), light]);
-            });
-        }
+        let columns = text.lines().map(|line| line.chars().count()).max().unwrap_or(0) * font::ADVANCE;
+        let rows = text.lines().count() * font::LINE;
+        let panel = |dots: usize| DOT * dots as f32 + MARGIN;
+        self.list.push([0.5 * MARGIN, 0.5 * MARGIN, panel(columns), panel(rows), 0.0, 0.55]);
+        font::dots(text, |x, y| {
+            let at = |v: usize| MARGIN + DOT * v as f32;
+            self.list.push([at(x), at(y), DOT, DOT, 0.85, 1.0]);
+        });
         self.list.truncate(MAX_DOTS);
-        let screen = [size[0] as f32, size[1] as f32, DOT, 0.0];
+        let screen = [size[0] as f32, size[1] as f32, 0.0, 0.0];
         gpu.queue.write_buffer(&self.screen, 0, bytemuck::cast_slice(&screen));
         gpu.queue.write_buffer(&self.dots, 0, bytemuck::cast_slice(&self.list));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

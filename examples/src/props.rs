@@ -16,9 +16,33 @@ const RUBBER: [u8; 4] = [52, 52, 54, 90];
 /// Triangles that meet below this angle shade as one smooth surface (cosine).
 const CREASE: f32 = 0.8;
 
-/// A mesh for drawing from a hull's triangles: smooth but for creases, coloured by `paint` from a triangle's centre and
-/// normal.
-pub fn hull_mesh(mesh: &TriMesh, paint: impl Fn(Vec3, Vec3) -> [u8; 4]) -> MeshData {
+/// A corner of a triangle: where and its normal.
+type Corner = (Vec3, Vec3);
+
+/// Cuts a triangle along the level `y` so that no piece crosses it.
+fn split(triangle: [Corner; 3], y: f32, out: &mut Vec<[Corner; 3]>) {
+    for sign in [-1.0, 1.0] {
+        let above = |c: &Corner| sign * (c.0.y - y);
+        let mut piece: Vec<Corner> = Vec::with_capacity(4);
+        for k in 0..3 {
+            let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
+            if above(&a) >= 0.0 {
+                piece.push(a);
+            }
+            if above(&a) * above(&b) < 0.0 {
+                let t = above(&a) / (above(&a) - above(&b));
+                piece.push((a.0.lerp(b.0, t), a.1.lerp(b.1, t)));
+            }
+        }
+        for k in 2..piece.len() {
+            out.push([piece[0], piece[k - 1], piece[k]]);
+        }
+    }
+}
+
+/// A mesh for drawing from a hull's triangles: smooth but for creases, cut at `levels`, coloured by `paint` from a
+/// piece's centre and normal.
+pub fn hull_mesh(mesh: &TriMesh, levels: &[f32], paint: impl Fn(Vec3, Vec3) -> [u8; 4]) -> MeshData {
     let corner = |t: &[u32], k: usize| mesh.vertices[t[k] as usize];
     let normals: Vec<Vec3> = mesh
         .indices
@@ -34,19 +58,24 @@ pub fn hull_mesh(mesh: &TriMesh, paint: impl Fn(Vec3, Vec3) -> [u8; 4]) -> MeshD
     let mut data = MeshData::default();
     for (face, t) in mesh.indices.chunks_exact(3).enumerate() {
         let own = normals[face].normalize_or(Vec3::Y);
-        let color = paint((corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0, own);
-        for (k, index) in t.iter().enumerate() {
-            let smooth: Vec3 = around[index]
-                .iter()
-                .map(|other| normals[*other])
-                .filter(|n| n.normalize_or_zero().dot(own) > CREASE)
-                .sum();
-            data.indices.push(data.vertices.len() as u32);
-            data.vertices.push(MeshVertex {
-                position: corner(t, k).into(),
-                normal: smooth.normalize_or(own).into(),
-                color,
-            });
+        let smooth = |k: usize| {
+            let faces = around[&t[k]].iter().map(|other| normals[*other]);
+            let sum: Vec3 = faces.filter(|n| n.normalize_or_zero().dot(own) > CREASE).sum();
+            sum.normalize_or(own)
+        };
+        let mut pieces = vec![std::array::from_fn(|k| (corner(t, k), smooth(k)))];
+        for level in levels {
+            let mut cut = Vec::with_capacity(3 * pieces.len());
+            pieces.iter().for_each(|piece| split(*piece, *level, &mut cut));
+            pieces = cut;
+        }
+        for piece in pieces {
+            let color = paint((piece[0].0 + piece[1].0 + piece[2].0) / 3.0, own);
+            for (position, normal) in piece {
+                data.indices.push(data.vertices.len() as u32);
+                let normal = normal.normalize_or(own).into();
+                data.vertices.push(MeshVertex { position: position.into(), normal, color });
+            }
         }
     }
     data
@@ -58,12 +87,14 @@ pub fn boat_mesh(hull: &Hull, waterline: f32, fittings: bool) -> MeshData {
     let (low, high) = hull.bounds();
     let (length, beam) = (high.x - low.x, high.z - low.z);
     let none = TriMesh::default();
-    let mut data = hull_mesh(hull.mesh().unwrap_or(&none), |at, normal| {
+    let keel = waterline + 0.015 * length;
+    let trim = keel + 0.02 * length;
+    let mut data = hull_mesh(hull.mesh().unwrap_or(&none), &[keel, trim], |at, normal| {
         if normal.y > 0.8 && at.y > waterline {
             DECK
-        } else if at.y < waterline + 0.015 * length {
+        } else if at.y < keel {
             KEEL
-        } else if at.y > high.y - 0.16 * (high.y - low.y) {
+        } else if at.y < trim {
             TRIM
         } else {
             PAINT
@@ -119,10 +150,14 @@ mod tests {
     #[test]
     fn a_cube_stays_sharp_and_a_barrel_smooth() {
         let hull = Hull::from_mesh(&cube(), open_water::Closure::Require).unwrap();
-        let data = hull_mesh(hull.mesh().unwrap(), |_, _| [0; 4]);
+        let data = hull_mesh(hull.mesh().unwrap(), &[0.25], |_, _| [0; 4]);
         for v in &data.vertices {
             let n = Vec3::from(v.normal).abs();
             assert!(n.max_element() > 0.999, "{n}");
+        }
+        for piece in data.vertices.chunks(3) {
+            let y = piece.iter().map(|v| v.position[1] - 0.25);
+            assert!(y.clone().all(|y| y >= -1e-6) || y.clone().all(|y| y <= 1e-6), "a piece crosses the cut");
         }
         let around = barrel(0.3, 0.9);
         assert!(around.indices.iter().all(|i| (*i as usize) < around.vertices.len()));

@@ -29,7 +29,7 @@ fn mesh_fragment(in: MeshVertex) -> @location(0) vec4<f32> {
     let distance = length(offset);
     let to_eye = offset / distance;
     let up = 0.5 + 0.5 * n.y;
-    let bounce = view.scatter * (view.skylight + view.sunlight * max(view.sun.y, 0.0)) + 0.06 * view.skylight;
+    let bounce = view.scatter * (view.skylight + view.sunlight * max(view.sun.y, 0.0)) + 0.2 * view.skylight;
     let light = view.sunlight * max(dot(n, view.sun), 0.0) + mix(bounce, view.skylight, up);
     // Alpha is gloss: 0 dull, 1 wet paint.
     let gloss = in.color.a;

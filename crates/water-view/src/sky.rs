@@ -12,6 +12,9 @@ pub(crate) const RAYLEIGH: Vec3 = Vec3::new(0.0464, 0.108, 0.2648);
 /// Radiant scale of the sun outside the air: white, in units that make a clear horizon about 1.
 const SUN: f32 = 20.0;
 
+/// Sky light over that scattered once: what is scattered more than once is about as blue and comes from everywhere.
+const MULTIPLE: f32 = 1.6;
+
 /// Constants that follow from a [`Sky`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Light {
@@ -45,7 +48,7 @@ impl Light {
             airlight: SUN * exp(-0.35 * path) * day,
             skylight: Vec3::ZERO,
         };
-        light.skylight = light.irradiance();
+        light.skylight = MULTIPLE * light.irradiance();
         light
     }
 
