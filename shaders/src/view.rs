@@ -12,6 +12,21 @@ pub const GRID_FILTER: f32 = 1.5;
 /// Most that the filtered width of a pixel may fall short of its long axis on the water.
 pub const PIXEL_STRETCH: f32 = 2.5;
 
+/// Most hulls that are kept dry in a view.
+pub const MAX_CUTOUTS: usize = 4;
+
+/// A hull whose inside shows no water.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Cutout {
+    /// First row of the transform from local space to the hull's box, -1 at its stern and 1 at its bow.
+    pub x: [f32; 4],
+    /// Second row, -1 at its keel and 1 at its top.
+    pub y: [f32; 4],
+    /// Third row, -1 and 1 at its sides.
+    pub z: [f32; 4],
+}
+
 /// The uniform block at group 0, binding 0 of every view pass. Fields are explained in `wgsl/shared/view.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
@@ -78,9 +93,13 @@ pub struct ViewFrame {
     pub closed: u32,
     /// Wave height that the water's colour is scaled by, metres.
     pub wave_height: f32,
-    /// Padding.
-    pub pad: u32,
+    /// How many of `cutouts` are in use.
+    pub cutout_count: u32,
+    /// Hulls to keep dry.
+    pub cutouts: [Cutout; MAX_CUTOUTS],
 }
+
+const CUTOUT: crate::ParamLayout = param_layout!(Cutout { x, y, z });
 
 const FRAME: crate::ParamLayout = param_layout!(ViewFrame {
     clip_from_world,
@@ -113,49 +132,44 @@ const FRAME: crate::ParamLayout = param_layout!(ViewFrame {
     turn,
     columns,
     closed,
-    wave_height
+    wave_height,
+    cutout_count,
+    cutouts
 });
 
 /// Layouts shared with WGSL.
-pub const PARAMS: &[crate::ParamLayout] = &[FRAME];
+pub const PARAMS: &[crate::ParamLayout] = &[CUTOUT, FRAME];
 
 const VIEW_TEXT: &str = include_str!("../wgsl/shared/view.wgsl");
 const SKY_TEXT: &str = include_str!("../wgsl/shared/sky.wgsl");
 const LIGHT_TEXT: &str = include_str!("../wgsl/shared/water_light.wgsl");
 const FRESNEL_TEXT: &str = include_str!("../wgsl/shared/fresnel.wgsl");
 
+fn view_constants() -> String {
+    format!("const MAX_CUTOUTS: u32 = {MAX_CUTOUTS}u;\n")
+}
+
 fn water_constants() -> String {
-    format!(
-        "const GRID_FILTER: f32 = {GRID_FILTER:?};\nconst PIXEL_STRETCH: f32 = {PIXEL_STRETCH:?};\n{}",
-        surface::constants(SURFACE_GROUP)
-    )
+    view_constants()
+        + &format!(
+            "const GRID_FILTER: f32 = {GRID_FILTER:?};\nconst PIXEL_STRETCH: f32 = {PIXEL_STRETCH:?};\n{}",
+            surface::constants(SURFACE_GROUP)
+        )
 }
 
 /// The sea.
 pub const WATER: Pass = Pass {
     name: "view_water",
     constants: water_constants,
-    parts: &[
-        surface::TEXT,
-        VIEW_TEXT,
-        SKY_TEXT,
-        FRESNEL_TEXT,
-        LIGHT_TEXT,
-        include_str!("../wgsl/view_water.wgsl"),
-    ],
+    parts: &[surface::TEXT, VIEW_TEXT, SKY_TEXT, FRESNEL_TEXT, LIGHT_TEXT, include_str!("../wgsl/view_water.wgsl")],
     entry_points: &["water_vertex", "water_fragment"],
-    params: &[
-        FRAME,
-        surface::PARAMS[0],
-        surface::PARAMS[1],
-        surface::PARAMS[2],
-    ],
+    params: &[CUTOUT, FRAME, surface::PARAMS[0], surface::PARAMS[1], surface::PARAMS[2]],
 };
 
 /// The sky.
 pub const SKY: Pass = Pass {
     name: "view_sky",
-    constants: crate::no_constants,
+    constants: view_constants,
     parts: &[VIEW_TEXT, SKY_TEXT, include_str!("../wgsl/view_sky.wgsl")],
     entry_points: &["sky_vertex", "sky_fragment"],
     params: PARAMS,
@@ -164,13 +178,8 @@ pub const SKY: Pass = Pass {
 /// Lit meshes.
 pub const MESH: Pass = Pass {
     name: "view_mesh",
-    constants: crate::no_constants,
-    parts: &[
-        VIEW_TEXT,
-        SKY_TEXT,
-        FRESNEL_TEXT,
-        include_str!("../wgsl/view_mesh.wgsl"),
-    ],
+    constants: view_constants,
+    parts: &[VIEW_TEXT, SKY_TEXT, FRESNEL_TEXT, include_str!("../wgsl/view_mesh.wgsl")],
     entry_points: &["mesh_vertex", "mesh_fragment"],
     params: PARAMS,
 };

@@ -29,6 +29,20 @@ fn water_vertex(@builtin(vertex_index) index: u32) -> WaterVertex {
     return WaterVertex(clip, world, rest);
 }
 
+// Whether a point is inside a hull, or on its deck: the plan tapers from amidships to the bow, a little narrower than
+// any boat's, so that no hole opens beside it.
+fn inside_hull(point: vec3<f32>) -> bool {
+    let p = vec4<f32>(point, 1.0);
+    for (var i = 0u; i < view.cutout_count; i++) {
+        let q = vec3<f32>(dot(view.cutouts[i].x, p), dot(view.cutouts[i].y, p), dot(view.cutouts[i].z, p));
+        let taper = max(q.x, 0.0);
+        if abs(q.x) < 0.97 && q.y > -1.0 && q.y < 2.0 && abs(q.z) < 0.93 * (1.0 - taper * taper) {
+            return true;
+        }
+    }
+    return false;
+}
+
 @fragment
 fn water_fragment(in: WaterVertex) -> @location(0) vec4<f32> {
     let dx = dpdx(in.rest);
@@ -42,6 +56,9 @@ fn water_fragment(in: WaterVertex) -> @location(0) vec4<f32> {
     let footprint = max(sqrt(major * minor), major / PIXEL_STRETCH);
     let look = surface_shading(in.rest, footprint);
     let foam = foam_cover(look.foam, in.rest, dx, dy);
+    if inside_hull(in.world) {
+        discard;
+    }
     let offset = view.camera - in.world;
     let distance = length(offset);
     let radiance = water_radiance(look, foam, offset / distance, in.world.y);

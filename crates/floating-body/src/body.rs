@@ -12,7 +12,7 @@ use crate::forces::{LocalWater, Pose, gravity, immerse, read_patch, read_points,
 use crate::hull::Waterline;
 use crate::rotation::{matrix, normalized, principal_moments, tumble, turned};
 use crate::source::{Column, Displacement};
-use crate::{BodyDesc, BodyError, Controls, ForcePoint, SurfaceSample, WaterSurface};
+use crate::{BodyDesc, BodyError, Controls, ForcePoint, Home, SurfaceSample, WaterSurface};
 
 /// Longest tick in s; what is longer is cut.
 const LONGEST_TICK: f32 = 1.0;
@@ -78,8 +78,10 @@ pub struct Body {
     restart: bool,
     wash: Displacement,
     immersed: f32,
-    /// The waves it makes act on it; otherwise its coefficients do.
+    /// The waves of its home grid act on it.
     feels_own: bool,
+    /// The waves it makes take its energy away; otherwise its coefficients do.
+    radiates: bool,
 }
 
 impl Body {
@@ -127,6 +129,7 @@ impl Body {
             wash: Displacement::default(),
             immersed: 0.0,
             feels_own: false,
+            radiates: false,
             points,
             desc,
         })
@@ -180,7 +183,9 @@ impl Body {
     }
 
     fn read(&mut self, water: &dyn WaterSurface) {
-        self.feels_own = self.desc.radiation == Radiation::Grid && water.carries_own_waves();
+        let (home, by_grid) = (water.home(), self.desc.radiation == Radiation::Grid);
+        self.feels_own = home == Home::Shared || (home == Home::Own && by_grid);
+        self.radiates = home != Home::None && by_grid;
         let pose = self.pose();
         let spots = self.points.iter().map(|p| p.position);
         let spots = spots.chain(self.desc.engine.map(|e| e.position - self.desc.center_of_mass));
@@ -204,7 +209,7 @@ impl Body {
         let wet = immerse(&self.points, &self.waters, &pose, own, desc.water_density);
         let share = (wet.volume / self.waterline.volume).min(DEEPEST);
         let to_body = pose.rotation.transpose();
-        let coefficients = if own { Default::default() } else { desc.coefficients };
+        let coefficients = if self.radiates { Default::default() } else { desc.coefficients };
         let axes = resistance_axes(pose.rotation, wet.slope, desc.hull.is_blunt());
         let to_axes = axes.transpose();
         let water = to_axes * wet.velocity;

@@ -25,12 +25,12 @@ pub enum Inertia {
 /// Who accounts for the waves that a body makes. Both at once would count them twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Radiation {
-    /// Forces leave the body's own grid out; added mass and linear damping act. For a boat with a grid of its own, which
-    /// its own wake shall not lift.
-    Coefficients,
-    /// Forces feel the body's own grid (`SurfaceSample::own`), with the wakes of others in it; added mass and damping
-    /// are off. Where no grid carries the body's waves, as `Coefficients`.
+    /// Added mass and linear damping act; a grid of the body's own is left out of the forces, so that its wake does not
+    /// lift it. In a grid that others disturb it feels all waves and, to count none twice, makes none.
     #[default]
+    Coefficients,
+    /// The home grid's waves act (`SurfaceSample::own`), the body's with all others', and take its energy away; added
+    /// mass and damping are off. Where no grid carries the body's waves, as `Coefficients`.
     Grid,
 }
 
@@ -120,7 +120,6 @@ impl BodyDesc {
         let buoyancy = waterline.center_of_buoyancy;
         let center = Vec3::new(buoyancy.x, waterline.level + 0.03 * beam, buoyancy.z);
         let away = center - desc.center_of_mass;
-        desc.radiation = Radiation::Coefficients;
         desc.center_of_mass = center;
         desc.unit_inertia += Mat3::from_diagonal(Vec3::splat(away.length_squared()))
             - Mat3::from_cols(away * away.x, away * away.y, away * away.z);

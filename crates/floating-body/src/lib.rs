@@ -47,7 +47,7 @@ pub use error::BodyError;
 pub use hull::{Closure, Hull, TriMesh, Waterline};
 pub use point::{ForcePoint, PointShape};
 pub use source::Displacement;
-pub use water::{AiryWave, FlatWater, SurfacePatch, SurfaceSample, WaterSurface};
+pub use water::{AiryWave, FlatWater, Home, SurfacePatch, SurfaceSample, WaterSurface};
 
 /// Gravity in m/s^2.
 pub const GRAVITY: f32 = 9.81;

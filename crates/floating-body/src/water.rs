@@ -57,6 +57,18 @@ pub struct SurfacePatch {
     pub decay_wavenumber: f32,
 }
 
+/// The grid that carries the waves a body makes, as far as the body is concerned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Home {
+    /// There is none: `own` is 0.
+    #[default]
+    None,
+    /// A grid for this body alone: `own` holds nothing but its own waves.
+    Own,
+    /// A grid that others disturb too: `own` holds their waves with its own, and is always felt.
+    Shared,
+}
+
 /// The water surface as one body sees it (its `own` grid differs from body to body).
 ///
 /// Positions are local world (x, z) in m. Both calls must answer for any finite position, without allocation.
@@ -65,10 +77,9 @@ pub trait WaterSurface: Sync {
     fn sample(&self, points: &[Vec2], out: &mut [SurfaceSample]);
     /// The water averaged over a disc of `radius` m about `center`.
     fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch;
-    /// Whether something carries the waves that the body makes, so that `own` holds them. Where nothing does, a body
-    /// with [`Radiation::Grid`](crate::Radiation::Grid) uses its coefficients instead.
-    fn carries_own_waves(&self) -> bool {
-        false
+    /// Whose waves `own` holds.
+    fn home(&self) -> Home {
+        Home::None
     }
 }
 

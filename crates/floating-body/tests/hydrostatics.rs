@@ -1,7 +1,7 @@
 //! Floatation against closed forms.
 
 use floating_body::{
-    Body, BodyDesc, BodyState, Controls, FlatWater, ForcePoints, Hull, Radiation, Sampling, SurfacePatch,
+    Body, BodyDesc, BodyState, Controls, FlatWater, ForcePoints, Home, Hull, Radiation, Sampling, SurfacePatch,
     SurfaceSample, TriMesh, WATER_DENSITY, WaterSurface,
 };
 use glam::{Mat3, Quat, Vec2, Vec3};
@@ -149,8 +149,8 @@ impl WaterSurface for Carried {
     fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch {
         FlatWater::default().patch(center, radius)
     }
-    fn carries_own_waves(&self) -> bool {
-        true
+    fn home(&self) -> Home {
+        Home::Own
     }
 }
 

@@ -1,8 +1,8 @@
 //! Motion: drag, slopes, waves, displaced volume, the launch under power.
 
 use floating_body::{
-    AiryWave, Body, BodyDesc, BodyState, Controls, Displacement, Drag, FlatWater, Hull, Inertia, Radiation, Sampling,
-    SurfacePatch, SurfaceSample, WATER_DENSITY, WaterSurface,
+    AiryWave, Body, BodyDesc, BodyState, Controls, Displacement, Drag, FlatWater, Home, Hull, Inertia, Radiation,
+    Sampling, SurfacePatch, SurfaceSample, WATER_DENSITY, WaterSurface,
 };
 use glam::{Quat, Vec2, Vec3};
 
@@ -197,8 +197,8 @@ fn the_own_grid_is_felt_with_radiation_grid_only() {
         fn patch(&self, _: Vec2, _: f32) -> SurfacePatch {
             SurfacePatch { own: 0.2, ..SurfacePatch::default() }
         }
-        fn carries_own_waves(&self) -> bool {
-            true
+        fn home(&self) -> Home {
+            Home::Own
         }
     }
     for (radiation, expected) in [(Radiation::Coefficients, 0.0), (Radiation::Grid, 0.2)] {

@@ -3,7 +3,7 @@
 //! The hydrodynamics are `floating-body`'s. Here each body is given the water it sees, and what it displaced is handed
 //! to the grid it disturbs. Bodies do not see each other: collisions are the physics engine's.
 
-use floating_body::{Body, BodyState, Controls, Displacement};
+use floating_body::{Body, BodyState, Controls, Displacement, Radiation};
 use glam::{Quat, Vec2, Vec3};
 use rayon::prelude::*;
 use slotmap::SlotMap;
@@ -16,6 +16,8 @@ use crate::{OpenWaterError, Reports};
 
 /// Bodies per task: a tick of a small body is well below a microsecond.
 const CHUNK: usize = 16;
+/// Least radius of a displaced column, cells: half of the shortest wave that the scheme carries within 1 %.
+const SMOOTH_CELLS: f32 = 4.0;
 /// Change of position within a tick, on top of the body's own motion, that counts as a teleport, metres.
 const TELEPORT: f32 = 5.0;
 
@@ -44,6 +46,9 @@ pub(crate) struct Entry {
     body: Body,
     controls: Controls,
     home: Option<GridId>,
+    /// Makes waves in its home grid: always in one that follows it; in another's only when it asks to, as it would feel
+    /// its own waves there.
+    disturbs: bool,
     /// Takes part in this tick.
     active: bool,
     previous: Option<Pose>,
@@ -64,6 +69,7 @@ impl Bodies {
             body,
             controls: Controls::default(),
             home: None,
+            disturbs: false,
             active: false,
             previous: None,
             displaced: Vec::new(),
@@ -141,11 +147,10 @@ impl Bodies {
             for entry in entries.iter_mut().filter(|entry| entry.active) {
                 let before = entry.body.state();
                 entry.home = grids.home_of(entry.id, before.position);
-                let water = BodyWater {
-                    water: Composite { ocean, grids },
-                    home: entry.home,
-                    feels_home: entry.body.desc().radiation == floating_body::Radiation::Grid,
-                };
+                let alone = entry.home.is_some_and(|home| grids.follows(home, entry.id));
+                entry.disturbs = alone || entry.body.desc().radiation == Radiation::Grid;
+                let water = Composite { ocean, grids };
+                let water = BodyWater { water, home: entry.home, alone, disturbs: entry.disturbs };
                 entry.body.step(dt, &water, &entry.controls);
                 entry.displaced.clear();
                 entry.body.displacements(&mut entry.displaced);
@@ -157,12 +162,14 @@ impl Bodies {
 
     /// Hands what the bodies displaced to their home grids, in a fixed order.
     pub(crate) fn disturb(&self, grids: &mut Grids) {
-        for entry in self.list.iter().filter(|entry| entry.active) {
+        for entry in self.list.iter().filter(|entry| entry.active && entry.disturbs) {
             let Some(grid) = entry.home.and_then(|home| grids.get_mut(home)) else { continue };
             for d in &entry.displaced {
                 let center = Vec2::new(d.center.x, d.center.y);
                 if d.volume != 0.0 {
-                    grid.add(Source::Displacement { center, radius: d.radius, volume: d.volume });
+                    // What moves in steps of a tick must be wide enough for the grid to carry it on smoothly.
+                    let radius = d.radius.max(SMOOTH_CELLS * grid.desc.cell_size);
+                    grid.add(Source::Displacement { center, radius, volume: d.volume });
                 }
                 if d.foam > 0.0 {
                     grid.add(Source::Turbulence { center, radius: d.radius, foam: d.foam });

@@ -170,6 +170,11 @@ impl Grids {
         covering.map(|grid| (rank(grid), grid.id)).min_by(|a, b| before(&a.0, &b.0)).map(|(_, id)| id)
     }
 
+    /// Whether a grid follows a body.
+    pub(crate) fn follows(&self, id: GridId, body: crate::BodyId) -> bool {
+        self.get(id).is_ok_and(|grid| grid.desc.follow == Follow::Body(body))
+    }
+
     /// Moves the windows after what they follow and runs one tick of each.
     pub(crate) fn tick(&mut self, place_of: impl Fn(crate::BodyId) -> Option<Vec3>) {
         for grid in &mut self.list {

@@ -213,3 +213,31 @@ fn a_boat_circling_at_speed_through_its_own_wake_stays_sane() {
     assert!(waves.is_finite() && highest < 5.0, "{highest} m");
     assert!((8.0..25.0).contains(&fastest), "{fastest} m/s");
 }
+
+#[test]
+fn crates_that_feel_their_own_waves_stay_in_the_water() {
+    let mut water = OpenWater::headless(small_sea()).unwrap();
+    let lead = water.add_body(boat()).unwrap();
+    water.add_grid(GridDesc { follow: Follow::Body(lead), ..GridDesc::default() }).unwrap();
+    water.set_controls(lead, Controls { throttle: 0.7, steering: 0.4, ..Controls::default() }).unwrap();
+    let mut store = BodyStates::default();
+    store.insert(lead, water.body(lead).unwrap().state());
+    let hull = Hull::cuboid(Vec3::new(0.9, 0.7, 0.7)).unwrap();
+    let floats: Vec<BodyId> = (0..40)
+        .map(|i| {
+            let id = water.add_body(BodyDesc::from_hull(&hull, 190.0)).unwrap();
+            let at = Vec2::from_angle(i as f32) * (4.0 + 0.5 * i as f32);
+            store.insert(id, BodyState::at_rest(Vec3::new(at.x, 0.2, at.y)));
+            id
+        })
+        .collect();
+    for tick in 0..900 {
+        run(&mut water, &mut store, 1);
+        for id in &floats {
+            let p = store.get(*id).unwrap().position;
+            let mut sea = [WaterSample::default()];
+            water.sample(&[Vec2::new(p.x, p.z)], &mut sea);
+            assert!((p.y - sea[0].height).abs() < 1.0, "tick {tick}: {p} over {sea:?}");
+        }
+    }
+}

@@ -1,3 +1,10 @@
+// A hull whose inside shows no water: rows of the transform into its box, which is -1 to 1 on each axis, x forward.
+struct Cutout {
+    x: vec4<f32>,
+    y: vec4<f32>,
+    z: vec4<f32>,
+}
+
 // What every pass of the view reads: camera, light, air, water, the projected grid. Same fields as ViewFrame in Rust.
 struct ViewFrame {
     clip_from_world: mat4x4<f32>,
@@ -55,7 +62,8 @@ struct ViewFrame {
     closed: u32,
     // Wave height that the water's colour is scaled by, metres.
     wave_height: f32,
-    pad: u32,
+    cutout_count: u32,
+    cutouts: array<Cutout, MAX_CUTOUTS>,
 }
 
 @group(0) @binding(0) var<uniform> view: ViewFrame;

@@ -3,7 +3,7 @@
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Consumers, Controls, Follow, FramePlan, GridDesc, GridHome, Hull,
-    OpenWater, OpenWaterDesc, Preset, Radiation, Reason, SkippedWork, View, WaterSample, Work,
+    OpenWater, OpenWaterDesc, Preset, Reason, SkippedWork, View, WaterSample, Work,
 };
 use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_layout};
 use open_water_shaders::surface;
@@ -203,11 +203,11 @@ fn a_grid_homed_on_the_gpu_comes_back_with_its_age() {
     let run = |home: GridHome| {
         let water = OpenWater::new(&context.device, &context.queue, calm()).unwrap();
         let mut scene = Scene { water, store: BodyStates::default(), boat: BodyId::default() };
-        let desc = GridDesc { home, cells: [96; 2], pml_width: 8, ..GridDesc::default() };
-        let grid = scene.water.add_grid(desc).unwrap();
         let hull = Hull::cuboid(Vec3::splat(1.0)).unwrap();
-        let body = BodyDesc { radiation: Radiation::Coefficients, ..BodyDesc::from_hull(&hull, 500.0) };
-        let dropped = scene.water.add_body(body).unwrap();
+        let dropped = scene.water.add_body(BodyDesc::from_hull(&hull, 500.0)).unwrap();
+        let follow = Follow::Body(dropped);
+        let desc = GridDesc { follow, home, cells: [96; 2], pml_width: 8, ..GridDesc::default() };
+        let grid = scene.water.add_grid(desc).unwrap();
         scene.store.insert(dropped, BodyState::at_rest(Vec3::new(0.0, 0.8, 0.0)));
         for _ in 0..40 {
             scene.frame(Some(&context), DT, Consumers::empty());

@@ -3,7 +3,7 @@
 //! Answers from the state after the last tick. Bodies see it through [`BodyWater`], which knows which grid is the
 //! body's own.
 
-use floating_body::{SurfacePatch, SurfaceSample, WaterSurface};
+use floating_body::{Home, SurfacePatch, SurfaceSample, WaterSurface};
 use glam::{Vec2, Vec3};
 use ocean_spectrum::{Ocean, OceanSample};
 use wave_grid::GridSample;
@@ -94,10 +94,13 @@ fn tilt(normal: Vec3, slope: Vec2) -> Vec3 {
 /// The water as one body sees it.
 pub(crate) struct BodyWater<'a> {
     pub(crate) water: Composite<'a>,
-    /// The grid that the body disturbs.
+    /// The grid that the body disturbs. Its waves go into `own` and nowhere else: what the body displaces is measured
+    /// against everything else, and would grow if any of its own waves were in there.
     pub(crate) home: Option<GridId>,
-    /// Whether the body's forces include its home grid's waves.
-    pub(crate) feels_home: bool,
+    /// The home grid follows this body: its waves count as the body's own.
+    pub(crate) alone: bool,
+    /// The body makes waves in its home grid.
+    pub(crate) disturbs: bool,
 }
 
 impl BodyWater<'_> {
@@ -121,13 +124,12 @@ impl WaterSurface for BodyWater<'_> {
             self.others_and_own(points, &mut others[..n], &mut own[..n]);
             let k = self.water.ocean.map_or(0.0, Ocean::peak_wavenumber);
             for (i, out) in out[..n].iter_mut().enumerate() {
-                let (a, g, o) = (&ambient[i], &others[i], &own[i]);
-                let felt = if self.feels_home { *o } else { GridSample::default() };
+                let (a, g) = (&ambient[i], &others[i]);
                 *out = SurfaceSample {
                     height: a.height + g.height,
-                    own: o.height,
-                    normal: tilt(a.normal, g.slope + felt.slope),
-                    velocity: a.velocity + Vec3::Y * (g.vertical_velocity + felt.vertical_velocity),
+                    own: own[i].height,
+                    normal: tilt(a.normal, g.slope),
+                    velocity: a.velocity + Vec3::Y * g.vertical_velocity,
                     acceleration: a.vertical_acceleration,
                     decay_wavenumber: k,
                 };
@@ -135,8 +137,12 @@ impl WaterSurface for BodyWater<'_> {
         }
     }
 
-    fn carries_own_waves(&self) -> bool {
-        self.home.is_some()
+    fn home(&self) -> Home {
+        match self.home {
+            None => Home::None,
+            Some(_) if self.alone => Home::Own,
+            Some(_) => Home::Shared,
+        }
     }
 
     fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch {
@@ -144,13 +150,13 @@ impl WaterSurface for BodyWater<'_> {
         let mut others = [GridSample::default()];
         let mut own = [GridSample::default()];
         self.others_and_own(&[center], &mut others, &mut own);
-        let felt = if self.feels_home { own[0].vertical_velocity } else { 0.0 };
         SurfacePatch {
             height: a.height + others[0].height,
             gradient: a.gradient + others[0].slope,
             own: own[0].height,
-            own_gradient: own[0].slope,
-            velocity: a.velocity + Vec3::Y * (others[0].vertical_velocity + felt),
+            // What a body displaces is measured with this slope: it must hold none of its own waves.
+            own_gradient: if self.disturbs { Vec2::ZERO } else { own[0].slope },
+            velocity: a.velocity + Vec3::Y * others[0].vertical_velocity,
             acceleration: a.vertical_acceleration,
             decay_wavenumber: a.decay_wavenumber,
         }
