@@ -7,8 +7,10 @@ use glam::{Affine3A, DVec2, Quat, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Controls, Follow, GridDesc, GridId, Hull, OpenWater, OpenWaterError, Tick,
 };
-use open_water_examples::{Helm, Mark, Options, Scene, SceneError, Setup, Subject, barrel, boat_mesh, crate_box, run};
-use water_view::{Instance, MeshId, MeshView};
+use open_water_examples::{
+    Dice, Helm, Mark, Options, Scene, SceneError, Setup, Subject, barrel, boat_mesh, crate_box, run,
+};
+use water_view::{DryHull, Instance, MeshId, MeshView};
 
 /// Pieces of flotsam.
 const FLOTSAM: u32 = 200;
@@ -56,19 +58,6 @@ struct Boat {
 
 fn main() -> ExitCode {
     run::<Boat>()
-}
-
-/// A number in [0, 1) per call (SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
-    }
 }
 
 /// The autopilot: around the origin at the radius of the course, back onto it when off.
@@ -223,6 +212,16 @@ impl Scene for Boat {
             }
             meshes.place(queue, *mesh, &self.instances);
         }
+    }
+
+    fn dry(&self) -> Option<DryHull> {
+        let pose = self.water.drawn_pose(self.boat)?;
+        let (low, high) = self.hull.bounds();
+        Some(DryHull {
+            world_from_hull: Affine3A::from_rotation_translation(pose.orientation, pose.position),
+            low,
+            high,
+        })
     }
 
     fn subject(&self) -> Subject {

@@ -22,7 +22,7 @@ struct Out { @builtin(position) clip: vec4<f32>, @location(0) rest: vec2<f32> }
     let look = surface_shading(in.rest, max(length(dpdx(in.rest)), length(dpdy(in.rest))));
     let sky = vec3<f32>(0.6, 0.75, 0.85);
     let facing = dot(look.normal, normalize(vec3<f32>(-in.rest.x, 8.0, -4.0 - in.rest.y)));
-    let water = mix(vec3<f32>(0.01, 0.07, 0.1), sky, pow(1.0 - clamp(facing, 0.0, 1.0), 4.0)) + 0.6 * look.foam;
+    let water = mix(vec3<f32>(0.01, 0.07, 0.1), sky, pow(1.0 - clamp(facing, 0.0, 1.0), 5.0)) + 0.4 * look.foam;
     return vec4<f32>(mix(water, sky, in.rest.y / 255.0), 1.0);
 }";
 

@@ -5,6 +5,7 @@
 mod camera;
 mod capture;
 mod device;
+mod dice;
 mod draw;
 mod error;
 mod font;
@@ -18,6 +19,7 @@ mod topview;
 mod window;
 
 pub use device::{Gpu, Pick};
+pub use dice::Dice;
 pub use error::SceneError;
 pub use options::{Backend, Options, Quality, Setup};
 pub use props::{barrel, boat_mesh, crate_box, hull_mesh};

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec2, Vec3};
 use open_water::{OpenWater, Tick};
-use water_view::MeshView;
+use water_view::{DryHull, MeshView};
 
 use crate::SceneError;
 use crate::options::{Options, Setup};
@@ -62,6 +62,9 @@ pub trait Scene: Sized + 'static {
 
     /// Says where they stand at the drawn moment.
     fn place(&mut self, queue: &wgpu::Queue, meshes: &mut MeshView);
+
+    /// A hull in which no water shows, at the drawn moment.
+    fn dry(&self) -> Option<DryHull>;
 
     /// What the camera follows.
     fn subject(&self) -> Subject;

@@ -140,7 +140,7 @@ const FRAME: crate::ParamLayout = param_layout!(ViewFrame {
 /// Layouts shared with WGSL.
 pub const PARAMS: &[crate::ParamLayout] = &[CUTOUT, FRAME];
 
-const VIEW_TEXT: &str = include_str!("../wgsl/shared/view.wgsl");
+const VIEW_TEXT: &str = concat!(include_str!("../wgsl/shared/view.wgsl"), include_str!("../wgsl/shared/display.wgsl"));
 const SKY_TEXT: &str = include_str!("../wgsl/shared/sky.wgsl");
 const LIGHT_TEXT: &str = include_str!("../wgsl/shared/water_light.wgsl");
 const FRESNEL_TEXT: &str = include_str!("../wgsl/shared/fresnel.wgsl");

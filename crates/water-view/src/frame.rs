@@ -74,7 +74,7 @@ pub struct ViewParams {
 impl ViewParams {
     /// A camera over two-metre waves under the default sky.
     pub fn new(view: View) -> Self {
-        Self { view, sky: Sky::default(), water: WaterLook::default(), wave_height: 2.0 }
+        Self { view, sky: Sky::default(), water: WaterLook::default(), dry: [None; MAX_CUTOUTS], wave_height: 2.0 }
     }
 }
 
