@@ -29,14 +29,15 @@ fn water_vertex(@builtin(vertex_index) index: u32) -> WaterVertex {
     return WaterVertex(clip, world, rest);
 }
 
-// Whether a point is inside a hull, or on its deck: the plan tapers from amidships to the bow, a little narrower than
-// any boat's, so that no hole opens beside it.
+// Whether a point is inside a hull, or on its deck: the plan tapers from amidships to the bow and the sides to the keel,
+// a little narrower than a boat's, so that no hole opens beside it.
 fn inside_hull(point: vec3<f32>) -> bool {
     let p = vec4<f32>(point, 1.0);
     for (var i = 0u; i < view.cutout_count; i++) {
         let q = vec3<f32>(dot(view.cutouts[i].x, p), dot(view.cutouts[i].y, p), dot(view.cutouts[i].z, p));
         let taper = max(q.x, 0.0);
-        if abs(q.x) < 0.97 && q.y > -1.0 && q.y < 2.0 && abs(q.z) < 0.93 * (1.0 - taper * taper) {
+        let beam = (1.0 - taper * taper) * mix(0.65, 0.93, clamp((q.y + 0.5) / 0.9, 0.0, 1.0));
+        if abs(q.x) < 0.96 && q.y > -1.0 && q.y < 2.0 && abs(q.z) < beam {
             return true;
         }
     }
