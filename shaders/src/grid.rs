@@ -99,8 +99,6 @@ pub struct GridTile {
 pub struct GridSource {
     /// Centre, cells from the window's corner.
     pub center: [f32; 2],
-    /// Where its rim begins, cells.
-    pub inner: f32,
     /// Where it ends, cells.
     pub outer: f32,
     /// Height in the middle, metres.
@@ -108,7 +106,7 @@ pub struct GridSource {
     /// Foam in the middle.
     pub foam: f32,
     /// Padding.
-    pub pad: [u32; 2],
+    pub pad: u32,
 }
 
 /// Which dispatch this is.
@@ -173,7 +171,7 @@ const PARAMS: &[crate::ParamLayout] = &[
         foam_keep,
         pad
     }),
-    param_layout!(GridSource { center, inner, outer, height, foam, pad }),
+    param_layout!(GridSource { center, outer, height, foam, pad }),
     param_layout!(GridDispatch { first, substep }),
 ];
 

@@ -36,6 +36,10 @@ const NEAR: f32 = 0.005;
 /// So do changes smaller than this share of the point's volume.
 const QUIET: f32 = 1.0e-6;
 
+/// Discs told to the water are wider than their columns by this factor, so that they overlap and a moving hull makes one
+/// wake, not one per column.
+const SPREAD: f32 = 2.5;
+
 /// Radius of the disc with a point's horizontal area.
 fn radius(point: &ForcePoint) -> f32 {
     (point.half.x * point.half.z * (4.0 / std::f32::consts::PI)).sqrt()
@@ -73,7 +77,7 @@ impl Column {
 
     /// Appends what has changed.
     pub(crate) fn tell(&self, point: &ForcePoint, out: &mut Vec<Displacement>) {
-        let radius = radius(point);
+        let radius = SPREAD * radius(point);
         let mut push = |center, volume: f32| {
             if volume != 0.0 {
                 out.push(Displacement { center, radius, volume, foam: 0.0 });

@@ -16,8 +16,6 @@ use crate::{OpenWaterError, Reports};
 
 /// Bodies per task: a tick of a small body is well below a microsecond.
 const CHUNK: usize = 16;
-/// Least radius of a displaced column, cells: half of the shortest wave that the scheme carries within 1 %.
-const SMOOTH_CELLS: f32 = 4.0;
 /// Change of position within a tick, on top of the body's own motion, that counts as a teleport, metres.
 const TELEPORT: f32 = 5.0;
 
@@ -167,9 +165,7 @@ impl Bodies {
             for d in &entry.displaced {
                 let center = Vec2::new(d.center.x, d.center.y);
                 if d.volume != 0.0 {
-                    // What moves in steps of a tick must be wide enough for the grid to carry it on smoothly.
-                    let radius = d.radius.max(SMOOTH_CELLS * grid.desc.cell_size);
-                    grid.add(Source::Displacement { center, radius, volume: d.volume });
+                    grid.add(Source::Displacement { center, radius: d.radius, volume: d.volume });
                 }
                 if d.foam > 0.0 {
                     grid.add(Source::Turbulence { center, radius: d.radius, foam: d.foam });

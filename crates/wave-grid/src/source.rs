@@ -1,7 +1,8 @@
-//! What disturbs a grid: discs of displaced volume and of foam, smoothed over three cells.
+//! What disturbs a grid: discs of displaced volume and of foam, at least three cells in radius.
 //!
-//! No border absorbs waves of one or two cells, so a source's rim falls off over three cells with a C1 kernel, and its
-//! discrete sum is normalised: the volume written is the volume asked for, wherever the disc stands between cells.
+//! No border absorbs waves of one or two cells, so a source falls off from its middle with a C1 kernel (a flat top sheds
+//! short waves as it moves), and its discrete sum is normalised: the volume written is the volume asked for, wherever the
+//! disc stands between cells.
 
 use glam::{DVec2, Vec2};
 
@@ -9,7 +10,7 @@ use crate::Window;
 
 pub use open_water_shaders::grid::HEIGHT_LIMIT;
 
-/// Half the width of a disc's soft rim, cells.
+/// Least radius that counts, and what is added to it for the kernel's fall, cells.
 const SOFT: f64 = 1.5;
 
 /// A disturbance of a grid.
@@ -41,8 +42,7 @@ pub enum Source {
 pub(crate) struct Footprint {
     /// Centre, cells from the corner.
     pub(crate) center: [f32; 2],
-    /// Where the rim begins and ends, cells.
-    pub(crate) inner: f32,
+    /// Where it ends, cells.
     pub(crate) outer: f32,
     /// Height in the middle, metres.
     pub(crate) height: f32,
@@ -77,7 +77,6 @@ impl Footprint {
         }
         let mut footprint = Self {
             center: [at.x as f32, at.y as f32],
-            inner: (radius - SOFT) as f32,
             outer: outer as f32,
             height: 0.0,
             foam: foam.clamp(0.0, 1.0),
@@ -96,11 +95,11 @@ impl Footprint {
         Some(footprint)
     }
 
-    /// Weight of cell (i, j): 1 inside, a smoothstep over the rim.
+    /// Weight of cell (i, j): a smoothstep from 1 in the middle to 0 at the end.
     pub(crate) fn weight(&self, i: usize, j: usize) -> f32 {
         let dx = i as f32 + 0.5 - self.center[0];
         let dz = j as f32 + 0.5 - self.center[1];
-        let t = ((self.outer - (dx * dx + dz * dz).sqrt()) / (self.outer - self.inner)).clamp(0.0, 1.0);
+        let t = ((self.outer - (dx * dx + dz * dz).sqrt()) / self.outer).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     }
 }

@@ -22,11 +22,10 @@ struct GridParams {
 
 struct GridSource {
     center: vec2<f32>,
-    inner: f32,
     outer: f32,
     height: f32,
     foam: f32,
-    pad: vec2<u32>,
+    pad: u32,
 }
 
 struct GridDispatch {

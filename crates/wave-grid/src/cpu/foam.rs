@@ -1,16 +1,17 @@
 //! The end of a tick: how high each tile's waves are, and the foam they leave.
 //!
-//! Water breaks where its crest falls faster than a fraction of g: foam grows with the downward acceleration
-//! -(c/h)^2 lap z above [`ONSET`] g and decays with time constant [`DECAY`]. Only for looks.
+//! Water breaks where its crest falls too fast: foam grows with the downward acceleration -(c/h)^2 lap z above [`ONSET`]
+//! g and decays with time constant [`DECAY`]. Real crests break below 1 g; here all waves travel at one speed c, and
+//! c^2 k of the short ones is many times the g of real ones, so the onset is chosen by eye. Only for looks.
 
 use crate::cpu::tiles::{Mode, Tiles};
 use crate::desc::TILE;
 use crate::state::State;
 
 /// Downward acceleration where foam begins, in g.
-pub(crate) const ONSET: f32 = 0.2;
+pub(crate) const ONSET: f32 = 5.0;
 /// Acceleration above the onset, in g, at which foam grows at the full rate.
-pub(crate) const RANGE: f32 = 0.3;
+pub(crate) const RANGE: f32 = 10.0;
 /// Foam per second at the full rate.
 pub(crate) const RATE: f32 = 4.0;
 /// Time constant of the decay, seconds.

@@ -150,11 +150,10 @@ impl Packer {
     /// Lists the grid's sources by tile, each tile's in the order they were added.
     fn place_sources(&mut self, slot: u32, grid: &Grid) {
         let corner = grid.place.window.corner;
-        for (Footprint { center, inner, outer, height, foam, range }, placed_at) in &grid.sources {
+        for (Footprint { center, outer, height, foam, range }, placed_at) in &grid.sources {
             let since: [i64; 2] = std::array::from_fn(|k| corner[k] - placed_at[k]);
             let source = GridSource {
                 center: std::array::from_fn(|k| center[k] - since[k] as f32),
-                inner: *inner,
                 outer: *outer,
                 height: *height,
                 foam: *foam,
