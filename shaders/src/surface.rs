@@ -1,7 +1,8 @@
 //! The composite surface: the bind group that the renderer and a game's own shaders read, and the WGSL that reads it.
 //!
 //! `surface_at` answers what the water is at a world point, exactly (cubic kernel, f32); `surface_vertex` and
-//! `surface_shading` answer for a rest point from filtered half-float mips, for looks.
+//! `surface_shading` answer for a rest point from filtered half-float mips, for looks. `bed_at`, `water_depth`,
+//! `water_open` and `wall_nearness` tell the land at a world point.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -52,6 +53,24 @@ pub struct SurfaceGrid {
     pub pad: [u32; 2],
 }
 
+/// The land as the composite surface sees it: where its rasters lie, and the level of the water.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct SurfaceLand {
+    /// Local position of texel (0, 0), metres.
+    pub corner: [f32; 2],
+    /// Distance of neighbouring texels, metres.
+    pub texel: f32,
+    /// 1 when there is land, 0 when only `level` counts.
+    pub present: u32,
+    /// Texels along x and z, from 2.
+    pub size: [u32; 2],
+    /// Level of still water above datum, metres.
+    pub level: f32,
+    /// Padding.
+    pub pad: f32,
+}
+
 /// The table at binding 0 of the composite bind group.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
@@ -71,6 +90,8 @@ pub struct SurfaceTable {
     pub cascades: [SurfaceCascade; MAX_CASCADES],
     /// Grids.
     pub grids: [SurfaceGrid; MAX_GRIDS],
+    /// Land and water level.
+    pub land: SurfaceLand,
 }
 
 impl Default for SurfaceTable {
@@ -83,7 +104,17 @@ impl Default for SurfaceTable {
 pub const PARAMS: &[crate::ParamLayout] = &[
     param_layout!(SurfaceCascade { offset, tile, size }),
     param_layout!(SurfaceGrid { corner, cell_size, base, cells }),
-    param_layout!(SurfaceTable { cascade_count, grid_count, time, significant_height, hidden_slope, cascades, grids }),
+    param_layout!(SurfaceTable {
+        cascade_count,
+        grid_count,
+        time,
+        significant_height,
+        hidden_slope,
+        cascades,
+        grids,
+        land
+    }),
+    param_layout!(SurfaceLand { corner, texel, present, size, level }),
 ];
 
 /// Constants that WGSL shares, and the group index of the composite bind group.
@@ -97,7 +128,8 @@ pub fn constants(group: u32) -> String {
          @group({group}) @binding(3) var<storage, read> surface_grids: array<vec2<f32>>;\n\
          @group({group}) @binding(4) var looks_displacement: texture_2d_array<f32>;\n\
          @group({group}) @binding(5) var looks_derivative: texture_2d_array<f32>;\n\
-         @group({group}) @binding(6) var looks_sampler: sampler;\n"
+         @group({group}) @binding(6) var looks_sampler: sampler;\n\
+         @group({group}) @binding(7) var surface_land: texture_2d_array<f32>;\n"
     )
 }
 
@@ -107,6 +139,9 @@ pub fn wgsl(group: u32) -> String {
 }
 
 /// Layout of the composite bind group, for vertex, fragment and compute stages.
+///
+/// Binding 7 holds the rasters of the land, three layers read bilinearly: factors on the amplitudes of cascades 0 to 3,
+/// those of 4 to 7, and (elevation of the bed above datum in metres, open water 0 to 1, nearness of walls 0 to 1, 0).
 #[cfg(feature = "gpu")]
 pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     use crate::pipeline::Slot;
@@ -117,7 +152,7 @@ pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         device,
         "surface",
         wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        &[table, unfiltered, unfiltered, Slot::Read, filtered, filtered, Slot::Sampler],
+        &[table, unfiltered, unfiltered, Slot::Read, filtered, filtered, Slot::Sampler, unfiltered],
     )
 }
 
@@ -125,8 +160,12 @@ pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 pub const TEXT: &str = concat!(
     include_str!("../wgsl/shared/cubic.wgsl"),
     include_str!("../wgsl/shared/surface.wgsl"),
+    include_str!("../wgsl/shared/land.wgsl"),
+    include_str!("../wgsl/shared/land_factors.wgsl"),
+    include_str!("../wgsl/shared/surface_at.wgsl"),
     include_str!("../wgsl/shared/looks_grid.wgsl"),
     include_str!("../wgsl/shared/looks_detail.wgsl"),
+    include_str!("../wgsl/shared/looks_hidden.wgsl"),
     include_str!("../wgsl/shared/looks.wgsl"),
 );
 

@@ -24,9 +24,10 @@ fn soft_slope(slope: vec2<f32>) -> vec2<f32> {
 
 // Where the vertex at a rest point stands (x, y, z), for looks.
 fn surface_vertex(rest: vec2<f32>, footprint: f32) -> vec3<f32> {
+    let factors = land_factors(rest);
     var d = vec3<f32>(0.0);
     for (var c = 0u; c < surface_table.cascade_count; c++) {
-        let weight = looks_weight(c, footprint);
+        let weight = looks_weight(c, footprint) * land_factor(factors, c);
         if weight <= 0.0 {
             continue;
         }
@@ -35,28 +36,21 @@ fn surface_vertex(rest: vec2<f32>, footprint: f32) -> vec3<f32> {
         d += weight * textureSampleLevel(looks_displacement, looks_sampler, uv, c, max(looks_level(c, footprint), 0.0)).xyz;
     }
     let point = rest + d.xz;
-    return vec3<f32>(point.x, d.y + grids_vertex(point, footprint), point.y);
+    return vec3<f32>(point.x, d.y + grids_vertex(point, footprint) + surface_table.land.level, point.y);
 }
 
-// Mean square slope of the waves that a footprint (metres) hides.
-fn hidden_slope(footprint: f32) -> f32 {
-    let x = clamp(log2(max(footprint, 1e-6)) + HIDDEN_SLOPE_BIAS, 0.0, 15.0);
-    let i = u32(x);
-    let j = min(i + 1u, 15u);
-    let a = surface_table.hidden_slope[i / 4u][i % 4u];
-    let b = surface_table.hidden_slope[j / 4u][j % 4u];
-    return mix(a, b, x - f32(i));
-}
-
-// Normal, hidden roughness and foam at a rest point, for looks.
+// Normal, hidden roughness and foam at a rest point, for looks. The slopes of the land's factors are left out: they are
+// much flatter than waves, and would show the raster.
 fn surface_shading(rest: vec2<f32>, footprint: f32) -> SurfaceLook {
+    let factors = land_factors(rest);
     var derivative = vec4<f32>(0.0);
     var displacement = vec4<f32>(0.0);
     var hidden = footprint;
     for (var c = 0u; c < surface_table.cascade_count; c++) {
         let cascade = surface_table.cascades[c];
-        let weight = shading_weight(c, footprint);
+        var weight = shading_weight(c, footprint);
         hidden = max(hidden, (1.0 - weight) * cascade.tile / 12.0);
+        weight *= land_factor(factors, c);
         if weight <= 0.0 {
             continue;
         }
@@ -70,7 +64,8 @@ fn surface_shading(rest: vec2<f32>, footprint: f32) -> SurfaceLook {
         displacement += weight * textureSampleLevel(looks_displacement, looks_sampler, uv, c, level);
     }
     let grids = grids_look(rest + displacement.xz, footprint);
-    let slope = soft_slope(world_slope(derivative, 0.0) + ripple_slope(rest, footprint) + grids.yz);
+    let ripples = ripple_slope(rest, footprint) * last_factor(factors);
+    let slope = soft_slope(world_slope(Gradient(derivative, vec2<f32>(0.0))) + ripples + grids.yz);
     let normal = normalize(vec3<f32>(-slope.x, 1.0, -slope.y));
-    return SurfaceLook(normal, hidden_slope(hidden), clamp(displacement.w + grids.w, 0.0, 1.0));
+    return SurfaceLook(normal, hidden_left(hidden, factors), clamp(displacement.w + grids.w, 0.0, 1.0));
 }

@@ -144,6 +144,8 @@ impl Stage {
                 wgpu::BindingResource::TextureView(&views[2]),
                 wgpu::BindingResource::TextureView(&views[3]),
                 wgpu::BindingResource::Sampler(&sampler),
+                // No land: any view will do.
+                wgpu::BindingResource::TextureView(&views[0]),
             ],
         );
         Self { layout, group }

@@ -19,7 +19,7 @@ impl Gpu {
             match *work {
                 Work::Table => {
                     self.shown.listed = grids.iter().filter(|grid| grid.is_awake()).count();
-                    self.surface.write_table(&self.queue, plan.time, ocean, grids.iter());
+                    self.surface.write_table(&self.queue, plan.time, ocean, grids.iter(), 0.0);
                 }
                 Work::GridUpload { grid, .. } => {
                     if let Some(grid) = grids.get_mut(grid) {

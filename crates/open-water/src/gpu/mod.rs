@@ -5,6 +5,7 @@
 mod encode;
 pub(crate) mod grids;
 mod host;
+pub(crate) mod land;
 mod mirror;
 mod surface;
 
@@ -52,6 +53,14 @@ impl Gpu {
     pub(crate) fn resize_pool(&mut self, cells: u32) {
         self.shown.grids = None;
         self.surface.resize_pool(&self.device, self.ocean.as_ref(), cells);
+    }
+
+    /// Replaces the land that the composite surface reads.
+    ///
+    /// # Errors
+    /// The rasters are larger than the device's textures may be.
+    pub(crate) fn set_land(&mut self, texels: Option<&land::LandTexels>) -> Result<(), OpenWaterError> {
+        self.surface.set_land(&self.device, &self.queue, self.ocean.as_ref(), texels)
     }
 
     pub(crate) fn shown(&self) -> Shown {

@@ -1,10 +1,13 @@
-//! The composite surface's bind group: table, cascades, pool of drawn heights.
+//! The composite surface's bind group: table, cascades, pool of drawn heights, rasters of the land.
 
+use glam::DVec2;
 use ocean_spectrum::Ocean;
 use ocean_spectrum::gpu::GpuOcean;
 use open_water_shaders::pipeline::bind_group;
-use open_water_shaders::surface::{self, HIDDEN_SLOPE_BIAS, SurfaceCascade, SurfaceGrid, SurfaceTable};
+use open_water_shaders::surface::{self, HIDDEN_SLOPE_BIAS, SurfaceCascade, SurfaceGrid, SurfaceLand, SurfaceTable};
 
+use super::land::{Land, LandTexels};
+use crate::OpenWaterError;
 use crate::grids::Grid;
 
 /// Looks repeat their time after this long, so that it stays exact in an f32, seconds.
@@ -15,8 +18,9 @@ pub(crate) struct SurfaceBinding {
     table: wgpu::Buffer,
     pool: wgpu::Buffer,
     sampler: wgpu::Sampler,
-    /// Stands in for the cascades of a calm sea.
+    /// Stands in for the cascades of a calm sea, and for the land of the open sea.
     blank: wgpu::TextureView,
+    land: Option<Land>,
     group: wgpu::BindGroup,
 }
 
@@ -54,13 +58,44 @@ impl SurfaceBinding {
                 ..Default::default()
             });
         let pool = pool(device, 1);
-        let group = group(device, &layout, &table, &pool, &sampler, &blank, ocean);
-        Self { layout, table, pool, sampler, blank, group }
+        let views = Views { ocean, land: None, blank: &blank };
+        let group = group(device, &layout, &table, &pool, &sampler, views);
+        Self { layout, table, pool, sampler, blank, land: None, group }
     }
 
     pub(crate) fn resize_pool(&mut self, device: &wgpu::Device, ocean: Option<&GpuOcean>, cells: u32) {
         self.pool = pool(device, cells.max(1));
-        self.group = group(device, &self.layout, &self.table, &self.pool, &self.sampler, &self.blank, ocean);
+        self.bind(device, ocean);
+    }
+
+    /// Replaces the land. The group changes when land comes, goes or has another size. The table tells of it when it is
+    /// written next.
+    ///
+    /// # Errors
+    /// The rasters are larger than the device's textures may be.
+    pub(crate) fn set_land(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        ocean: Option<&GpuOcean>,
+        texels: Option<&LandTexels>,
+    ) -> Result<(), OpenWaterError> {
+        match (texels, &mut self.land) {
+            (None, None) => return Ok(()),
+            (None, land) => *land = None,
+            (Some(texels), Some(land)) if land.size() == texels.size => {
+                land.write(queue, texels);
+                return Ok(());
+            }
+            (Some(texels), land) => *land = Some(Land::new(device, queue, texels)?),
+        }
+        self.bind(device, ocean);
+        Ok(())
+    }
+
+    fn bind(&mut self, device: &wgpu::Device, ocean: Option<&GpuOcean>) {
+        let views = Views { ocean, land: self.land.as_ref(), blank: &self.blank };
+        self.group = group(device, &self.layout, &self.table, &self.pool, &self.sampler, views);
     }
 
     pub(crate) fn group(&self) -> &wgpu::BindGroup {
@@ -81,6 +116,7 @@ impl SurfaceBinding {
         time: f64,
         ocean: Option<&Ocean>,
         grids: impl Iterator<Item = &'a Grid>,
+        level: f32,
     ) {
         let mut table = SurfaceTable { time: (time % LOOKS_TIME) as f32, ..Default::default() };
         if let Some(ocean) = ocean {
@@ -98,7 +134,7 @@ impl SurfaceBinding {
         for (entry, grid) in table.grids.iter_mut().zip(grids.filter(|grid| grid.is_awake())) {
             let window = grid.window();
             *entry = SurfaceGrid {
-                corner: window.local_corner(glam::DVec2::ZERO).into(),
+                corner: window.local_corner(DVec2::ZERO).into(),
                 cell_size: window.cell_size,
                 base: grid.base,
                 cells: window.cells,
@@ -106,6 +142,8 @@ impl SurfaceBinding {
             };
             table.grid_count += 1;
         }
+        let land = self.land.as_ref().map(|land| land.entry(DVec2::ZERO));
+        table.land = SurfaceLand { level, ..land.unwrap_or_default() };
         queue.write_buffer(&self.table, 0, bytemuck::bytes_of(&table));
     }
 }
@@ -119,21 +157,27 @@ fn pool(device: &wgpu::Device, cells: u32) -> wgpu::Buffer {
     })
 }
 
+/// What the group's textures show.
+struct Views<'a> {
+    ocean: Option<&'a GpuOcean>,
+    land: Option<&'a Land>,
+    blank: &'a wgpu::TextureView,
+}
+
 fn group(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     table: &wgpu::Buffer,
     pool: &wgpu::Buffer,
     sampler: &wgpu::Sampler,
-    blank: &wgpu::TextureView,
-    ocean: Option<&GpuOcean>,
+    views: Views<'_>,
 ) -> wgpu::BindGroup {
-    let views = match ocean {
+    let cascades = match views.ocean {
         Some(o) => [o.displacement(), o.derivative(), o.looks_displacement(), o.looks_derivative()],
-        None => [blank; 4],
+        None => [views.blank; 4],
     };
     let [displacement, derivative, looks_displacement, looks_derivative] =
-        views.map(wgpu::BindingResource::TextureView);
+        cascades.map(wgpu::BindingResource::TextureView);
     bind_group(
         device,
         "surface",
@@ -146,6 +190,7 @@ fn group(
             looks_displacement,
             looks_derivative,
             wgpu::BindingResource::Sampler(sampler),
+            wgpu::BindingResource::TextureView(views.land.map_or(views.blank, Land::view)),
         ],
     )
 }
