@@ -9,6 +9,7 @@ mod dice;
 mod draw;
 mod error;
 mod font;
+pub mod harbour;
 mod headless;
 mod options;
 mod overlay;

@@ -1,0 +1,10 @@
+//! What the scene `harbour` is made of: its plan, the bed and its depth map, and the meshes of land and works.
+
+mod bed;
+mod plan;
+
+pub use bed::{elevation, picture};
+pub use plan::{
+    BERTH, JETTY, JETTY_HALF_WIDTH, JETTY_TOP, MAP_CORNER, MAP_METRES_PER_LEVEL, MAP_SEA_LEVEL, MAP_SIZE, MAP_TEXEL,
+    QUAY_HIGH, QUAY_LOW, QUAY_TOP, arm_outline, walls,
+};
