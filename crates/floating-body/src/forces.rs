@@ -17,6 +17,8 @@ pub(crate) struct LocalWater {
     pub(crate) velocity: Vec3,
     pub(crate) acceleration: f32,
     pub(crate) decay: f32,
+    /// Height of the still water.
+    pub(crate) level: f32,
 }
 
 /// Steepest slope that is believed; steeper water is breaking and no height field.
@@ -27,7 +29,7 @@ const FASTEST: f32 = 50.0;
 impl LocalWater {
     /// Sampled numbers, made harmless: NaN becomes calm water.
     fn new(at: Vec2, s: &SurfaceSample) -> Self {
-        let finite = s.height.is_finite() && s.own.is_finite() && s.velocity.is_finite();
+        let finite = s.height.is_finite() && s.level.is_finite() && s.own.is_finite() && s.velocity.is_finite();
         if !(finite && s.normal.is_finite() && s.acceleration.is_finite() && s.decay_wavenumber.is_finite()) {
             return Self { at, ..Self::default() };
         }
@@ -40,6 +42,7 @@ impl LocalWater {
             velocity: s.velocity.clamp_length_max(FASTEST),
             acceleration: s.acceleration.clamp(-0.9 * GRAVITY, 3.0 * GRAVITY),
             decay: s.decay_wavenumber.clamp(0.0, 100.0),
+            level: s.level.clamp(-1.0e4, 1.0e4),
         }
     }
 
@@ -64,11 +67,11 @@ pub(crate) fn read_points(
 
 /// Fills `out` from one patch about `center`.
 pub(crate) fn read_patch(water: &dyn WaterSurface, center: Vec2, radius: f32, at: &[Vec2], out: &mut [LocalWater]) {
-    let SurfacePatch { height, gradient, own, own_gradient, velocity, acceleration, decay_wavenumber } =
+    let SurfacePatch { height, gradient, own, own_gradient, velocity, acceleration, decay_wavenumber, level } =
         water.patch(center, radius);
     let slope = gradient + own_gradient;
     let normal = Vec3::new(-slope.x, 1.0, -slope.y).normalize_or(Vec3::Y);
-    let sample = SurfaceSample { height, own, normal, velocity, acceleration, decay_wavenumber };
+    let sample = SurfaceSample { height, own, normal, velocity, acceleration, decay_wavenumber, level };
     let plane = LocalWater::new(center, &sample);
     let gradient = if gradient.is_finite() { gradient.clamp_length_max(STEEPEST) } else { Vec2::ZERO };
     for (p, o) in at.iter().zip(out) {
@@ -147,7 +150,8 @@ pub(crate) fn immerse(points: &[ForcePoint], waters: &[LocalWater], pose: &Pose,
 /// Buoyancy of one piece as a share of `rho g V`, and the factor by which the wave's pressure has faded there.
 ///
 /// Hydrostatic pressure acts along the surface normal, `rho g V (-dh/dx, 1, -dh/dz)` per immersed volume: bodies slide
-/// down a wave's face. A wave's pressure fades as `exp(-k d)`, so that the height `h` counts in full at the surface only:
+/// down a wave's face. A wave's pressure fades as `exp(-k d)`, so that its height `h` over the still water counts in full
+/// at the surface only:
 /// the difference between bottom and top is `rho g h (exp(-k d_top) - exp(-k d_bottom))` less than hydrostatic (linear
 /// wave theory).
 fn buoyancy(share: f32, extent: f32, depth: f32, water: &LocalWater) -> (f32, f32) {
@@ -156,7 +160,7 @@ fn buoyancy(share: f32, extent: f32, depth: f32, water: &LocalWater) -> (f32, f3
         return (share, 1.0);
     }
     let (at_top, at_bottom) = (libm::expf(-water.decay * top), libm::expf(-water.decay * bottom));
-    let lost = water.height * (at_top - at_bottom) / (2.0 * extent);
+    let lost = (water.height - water.level) * (at_top - at_bottom) / (2.0 * extent);
     ((share - lost).clamp(0.0, 1.5), 0.5 * (at_top + at_bottom))
 }
 

@@ -24,12 +24,21 @@ pub struct SurfaceSample {
     pub acceleration: f32,
     /// Wavenumber in rad/m with which the wave's pressure decays with depth, `exp(-k d)`; 0 for no decay.
     pub decay_wavenumber: f32,
+    /// Height in m of the still water, part of `height`: the wave, whose pressure decays, is `height - level`.
+    pub level: f32,
 }
 
 impl SurfaceSample {
     /// Still water at height 0.
-    pub const CALM: Self =
-        Self { height: 0.0, own: 0.0, normal: Vec3::Y, velocity: Vec3::ZERO, acceleration: 0.0, decay_wavenumber: 0.0 };
+    pub const CALM: Self = Self {
+        height: 0.0,
+        own: 0.0,
+        normal: Vec3::Y,
+        velocity: Vec3::ZERO,
+        acceleration: 0.0,
+        decay_wavenumber: 0.0,
+        level: 0.0,
+    };
 }
 
 impl Default for SurfaceSample {
@@ -55,6 +64,8 @@ pub struct SurfacePatch {
     pub acceleration: f32,
     /// As [`SurfaceSample::decay_wavenumber`].
     pub decay_wavenumber: f32,
+    /// As [`SurfaceSample::level`].
+    pub level: f32,
 }
 
 /// The grid that carries the waves a body makes, as far as the body is concerned.
@@ -94,16 +105,18 @@ pub struct FlatWater {
 
 impl WaterSurface for FlatWater {
     fn sample(&self, points: &[Vec2], out: &mut [SurfaceSample]) {
-        let sample = SurfaceSample { height: self.height, velocity: self.current, ..SurfaceSample::CALM };
+        let (height, velocity) = (self.height, self.current);
+        let sample = SurfaceSample { height, velocity, level: height, ..SurfaceSample::CALM };
         out[..points.len()].fill(sample);
     }
 
     fn patch(&self, _center: Vec2, _radius: f32) -> SurfacePatch {
-        SurfacePatch { height: self.height, velocity: self.current, ..SurfacePatch::default() }
+        let (height, velocity) = (self.height, self.current);
+        SurfacePatch { height, velocity, level: height, ..SurfacePatch::default() }
     }
 }
 
-/// One regular wave of linear (Airy) theory: `eta = a cos(k.x - omega t + phase)`.
+/// One regular wave of linear (Airy) theory: `eta = level + a cos(k.x - omega t + phase)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AiryWave {
     /// Amplitude in m.
@@ -116,6 +129,8 @@ pub struct AiryWave {
     pub phase: f32,
     /// Time in s; set before each step.
     pub time: f64,
+    /// Height of the still water in m.
+    pub level: f32,
 }
 
 impl AiryWave {
@@ -124,7 +139,7 @@ impl AiryWave {
     /// A wavelength that is not positive gives flat water.
     pub fn new(amplitude: f32, wavelength: f32, direction: f32) -> Self {
         if !(wavelength > 0.0 && wavelength.is_finite() && direction.is_finite() && amplitude.is_finite()) {
-            return Self { amplitude: 0.0, wave_vector: Vec2::ZERO, frequency: 0.0, phase: 0.0, time: 0.0 };
+            return Self { amplitude: 0.0, wave_vector: Vec2::ZERO, frequency: 0.0, phase: 0.0, time: 0.0, level: 0.0 };
         }
         let k = (TAU / f64::from(wavelength)) as f32;
         Self {
@@ -133,6 +148,7 @@ impl AiryWave {
             frequency: (GRAVITY * k).sqrt(),
             phase: 0.0,
             time: 0.0,
+            level: 0.0,
         }
     }
 
@@ -150,7 +166,8 @@ impl AiryWave {
         let along = if k > 0.0 { self.wave_vector / k } else { Vec2::ZERO };
         let u = along * (a * w * c);
         SurfacePatch {
-            height: a * c,
+            height: self.level + a * c,
+            level: self.level,
             gradient: self.wave_vector * (-a * s),
             velocity: Vec3::new(u.x, a * w * s, u.y),
             acceleration: -a * w * w * c,
@@ -171,6 +188,7 @@ impl WaterSurface for AiryWave {
                 velocity: p.velocity,
                 acceleration: p.acceleration,
                 decay_wavenumber: p.decay_wavenumber,
+                level: p.level,
             };
         }
     }

@@ -40,6 +40,7 @@ impl WaterSurface for Wild {
             velocity: v,
             acceleration: self.0,
             decay_wavenumber: self.0,
+            level: self.0,
         };
         out[..points.len()].fill(s);
     }
@@ -54,6 +55,7 @@ impl WaterSurface for Wild {
             velocity: v,
             acceleration: self.0,
             decay_wavenumber: self.0,
+            level: self.0,
         }
     }
 }

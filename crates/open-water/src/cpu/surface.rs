@@ -132,6 +132,7 @@ impl WaterSurface for BodyWater<'_> {
                     velocity: a.velocity + Vec3::Y * g.vertical_velocity,
                     acceleration: a.vertical_acceleration,
                     decay_wavenumber: k,
+                    level: 0.0,
                 };
             }
         }
@@ -159,6 +160,7 @@ impl WaterSurface for BodyWater<'_> {
             velocity: a.velocity + Vec3::Y * others[0].vertical_velocity,
             acceleration: a.vertical_acceleration,
             decay_wavenumber: a.decay_wavenumber,
+            level: 0.0,
         }
     }
 }
