@@ -12,6 +12,11 @@ pub const GRID_FILTER: f32 = 1.5;
 /// Most that the filtered width of a pixel may fall short of its long axis on the water.
 pub const PIXEL_STRETCH: f32 = 2.5;
 
+/// Share of open water below which none is drawn.
+pub const LEAST_OPEN: f32 = 0.02;
+/// Depth over which the water's edge fades in, metres.
+pub const SHORE_EDGE: f32 = 0.05;
+
 /// Most hulls that are kept dry in a view.
 pub const MAX_CUTOUTS: usize = 4;
 
@@ -95,6 +100,12 @@ pub struct ViewFrame {
     pub wave_height: f32,
     /// How many of `cutouts` are in use.
     pub cutout_count: u32,
+    /// Level of still water, metres.
+    pub level: f32,
+    /// How much foam shores and walls make, 1 as calibrated.
+    pub surf: f32,
+    /// Padding.
+    pub pad: [f32; 2],
     /// Hulls to keep dry.
     pub cutouts: [Cutout; MAX_CUTOUTS],
 }
@@ -134,6 +145,8 @@ const FRAME: crate::ParamLayout = param_layout!(ViewFrame {
     closed,
     wave_height,
     cutout_count,
+    level,
+    surf,
     cutouts
 });
 
@@ -143,6 +156,7 @@ pub const PARAMS: &[crate::ParamLayout] = &[CUTOUT, FRAME];
 const VIEW_TEXT: &str = concat!(include_str!("../wgsl/shared/view.wgsl"), include_str!("../wgsl/shared/display.wgsl"));
 const SKY_TEXT: &str = include_str!("../wgsl/shared/sky.wgsl");
 const LIGHT_TEXT: &str = include_str!("../wgsl/shared/water_light.wgsl");
+const SHORE_TEXT: &str = include_str!("../wgsl/shared/shore.wgsl");
 const FRESNEL_TEXT: &str = include_str!("../wgsl/shared/fresnel.wgsl");
 
 fn view_constants() -> String {
@@ -152,7 +166,8 @@ fn view_constants() -> String {
 fn water_constants() -> String {
     view_constants()
         + &format!(
-            "const GRID_FILTER: f32 = {GRID_FILTER:?};\nconst PIXEL_STRETCH: f32 = {PIXEL_STRETCH:?};\n{}",
+            "const GRID_FILTER: f32 = {GRID_FILTER:?};\nconst PIXEL_STRETCH: f32 = {PIXEL_STRETCH:?};\n\
+             const LEAST_OPEN: f32 = {LEAST_OPEN:?};\nconst SHORE_EDGE: f32 = {SHORE_EDGE:?};\n{}",
             surface::constants(SURFACE_GROUP)
         )
 }
@@ -161,9 +176,17 @@ fn water_constants() -> String {
 pub const WATER: Pass = Pass {
     name: "view_water",
     constants: water_constants,
-    parts: &[surface::TEXT, VIEW_TEXT, SKY_TEXT, FRESNEL_TEXT, LIGHT_TEXT, include_str!("../wgsl/view_water.wgsl")],
+    parts: &[
+        surface::TEXT,
+        VIEW_TEXT,
+        SKY_TEXT,
+        FRESNEL_TEXT,
+        LIGHT_TEXT,
+        SHORE_TEXT,
+        include_str!("../wgsl/view_water.wgsl"),
+    ],
     entry_points: &["water_vertex", "water_fragment"],
-    params: &[CUTOUT, FRAME, surface::PARAMS[0], surface::PARAMS[1], surface::PARAMS[2]],
+    params: &[CUTOUT, FRAME, surface::PARAMS[0], surface::PARAMS[1], surface::PARAMS[2], surface::PARAMS[3]],
 };
 
 /// The sky.

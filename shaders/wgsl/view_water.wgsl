@@ -1,4 +1,5 @@
 // The sea: a grid projected from a level projector onto the mean plane, displaced and shaded by the composite surface.
+// Its colour is premultiplied: over a land's bed it lets through what stands behind it.
 struct WaterVertex {
     @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
@@ -20,7 +21,7 @@ fn water_vertex(@builtin(vertex_index) index: u32) -> WaterVertex {
     let spacing = max(radius, 0.05) * max(view.row_step, view.column_step);
     let point = surface_vertex(rest, GRID_FILTER * spacing);
     // Towards the horizon waves sink into the plane, so that the last row is level.
-    let world = mix(point, vec3<f32>(rest.x, 0.0, rest.y), smoothstep(0.5, 0.9, radius / view.far));
+    let world = mix(point, vec3<f32>(rest.x, view.level, rest.y), smoothstep(0.5, 0.9, radius / view.far));
     var clip = view.clip_from_world * vec4<f32>(world, 1.0);
     // The sea reaches beyond a host's far plane: such vertices stand on it.
     if clip.w > 0.0 {
@@ -56,13 +57,22 @@ fn water_fragment(in: WaterVertex) -> @location(0) vec4<f32> {
     // Between the two: the long axis alone blurs all waves away at grazing angles, the short one alone shimmers.
     let footprint = max(sqrt(major * minor), major / PIXEL_STRETCH);
     let look = surface_shading(in.rest, footprint);
-    let foam = foam_cover(look.foam, in.rest, dx, dy);
-    if inside_hull(in.world) {
+    // (elevation of the bed, open water, nearness of walls); without land far below, open and away from walls.
+    let land = land_at(in.world.xz);
+    let depth = in.world.y - land.x;
+    let wave = in.world.y - view.level;
+    if depth <= 0.0 || land.y < LEAST_OPEN || inside_hull(in.world) {
         discard;
     }
+    let white = max(look.foam, shore_foam(wave, depth, land.z, look.normal));
+    let foam = foam_cover(white, in.rest, dx, dy);
     let offset = view.camera - in.world;
     let distance = length(offset);
-    let radiance = water_radiance(look, foam, offset / distance, in.world.y);
+    let water = water_radiance(look, foam, offset / distance, wave, depth);
     let seen = exp(-view.haze * distance) * (1.0 - smoothstep(0.5, 0.98, distance / view.far));
-    return target_color(mix(sky_radiance(-offset), radiance, seen), in.clip.xy);
+    // Light that is added over light that is let through, as the target wants it: a colour and how much it covers.
+    let cover = 1.0 - water.through * seen;
+    let radiance = mix(sky_radiance(-offset), water.radiance, seen) / max(cover, 0.005);
+    let opacity = cover * smoothstep(0.0, SHORE_EDGE, depth);
+    return vec4<f32>(target_color(radiance, in.clip.xy).rgb, 1.0) * opacity;
 }

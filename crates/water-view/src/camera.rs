@@ -100,6 +100,11 @@ impl Rays {
         (finite && perspective && rays.right.cross(rays.up).length() > 1e-9).then_some(rays)
     }
 
+    /// The same rays over a plane at `level` as over one at 0.
+    pub(crate) fn above(&self, level: f32) -> Self {
+        Self { eye: self.eye - Vec3::Y * level, ..*self }
+    }
+
     /// Directions through the corners of the target, around it in order.
     pub(crate) fn corners(&self) -> [Vec3; 4] {
         [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]

@@ -35,12 +35,15 @@ pub struct WaterLook {
     pub scatter: Vec3,
     /// Absorption of light in the water, per channel, 1/m.
     pub absorption: Vec3,
-    /// Depth of an even bed below the mean plane, metres; `None` when it does not show.
+    /// Depth of an even bed below still water, metres; `None` when it does not show. A land has its own depth, and its
+    /// bed is drawn by the host before the water, which lets it show through.
     pub depth: Option<f32>,
-    /// Reflectance of the bed, per channel, 0 to 1.
+    /// Reflectance of the bed, per channel, 0 to 1. Over a land it tints what blue and green pass longer than red.
     pub bed: Vec3,
     /// Metres that one foam texture covers.
     pub foam_size: f32,
+    /// How much foam beaches and walls of a land make; 1 as it looks right, 0 none.
+    pub surf: f32,
 }
 
 impl Default for WaterLook {
@@ -52,6 +55,7 @@ impl Default for WaterLook {
             depth: None,
             bed: Vec3::new(0.42, 0.38, 0.28),
             foam_size: 3.7,
+            surf: 1.0,
         }
     }
 }
@@ -69,12 +73,21 @@ pub struct ViewParams {
     pub dry: [Option<DryHull>; MAX_CUTOUTS],
     /// Significant height of all waves together, metres: the grid must know how far they may reach.
     pub wave_height: f32,
+    /// Level of still water, metres: what the composite surface has.
+    pub level: f32,
 }
 
 impl ViewParams {
-    /// A camera over two-metre waves under the default sky.
+    /// A camera over two-metre waves under the default sky, still water at 0.
     pub fn new(view: View) -> Self {
-        Self { view, sky: Sky::default(), water: WaterLook::default(), dry: [None; MAX_CUTOUTS], wave_height: 2.0 }
+        Self {
+            view,
+            sky: Sky::default(),
+            water: WaterLook::default(),
+            dry: [None; MAX_CUTOUTS],
+            wave_height: 2.0,
+            level: 0.0,
+        }
     }
 }
 
@@ -121,7 +134,8 @@ pub(crate) fn build(desc: &ViewDesc, output: Output, params: &ViewParams, light:
     let wave_height = finite(params.wave_height, 0.0, 40.0);
     // The highest of some thousand waves, and room for a wake.
     let reach = 1.25 * wave_height + 0.6;
-    let grid = Projector::place(&rays, reach, desc.grid[0], desc.grid[1]);
+    let level = if params.level.is_finite() { params.level.clamp(-1e4, 1e4) } else { 0.0 };
+    let grid = Projector::place(&rays.above(level), reach, desc.grid[0], desc.grid[1]);
     let mut frame = ViewFrame {
         clip_from_world: (params.view.clip_from_view * params.view.view_from_world).to_cols_array_2d(),
         camera: rays.eye.into(),
@@ -147,6 +161,8 @@ pub(crate) fn build(desc: &ViewDesc, output: Output, params: &ViewParams, light:
         bed: color(params.water.bed),
         columns: desc.grid[0],
         wave_height,
+        level,
+        surf: finite(params.water.surf, 0.0, 4.0),
         ..ViewFrame::default()
     };
     for (slot, cutout) in frame.cutouts.iter_mut().zip(params.dry.iter().flatten().filter_map(DryHull::cutout)) {

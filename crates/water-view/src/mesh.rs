@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Affine3A, Vec3};
 use open_water_shaders::view;
 
-use crate::water::{WaterView, filled, pipeline};
+use crate::water::{Blend, WaterView, filled, pipeline};
 
 /// A corner of a mesh.
 #[repr(C)]
@@ -126,7 +126,7 @@ impl MeshView {
             }),
         ];
         Self {
-            pipeline: pipeline(device, view.desc(), &view::MESH, &[view.layout()], &buffers, true),
+            pipeline: pipeline(device, view.desc(), &view::MESH, &[view.layout()], &buffers, Blend::Opaque),
             meshes: Vec::new(),
             scratch: Vec::new(),
         }

@@ -61,6 +61,17 @@ pub(crate) fn filled(device: &wgpu::Device, label: &str, usage: wgpu::BufferUsag
     buffer
 }
 
+/// How a pass meets what is in the targets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Blend {
+    /// Hides what is behind it.
+    Opaque,
+    /// Covers what is behind it as far as its alpha says, premultiplied; stands in the depth target.
+    Over,
+    /// Fills what is left, without depth.
+    Behind,
+}
+
 /// A pipeline of a view pass on the host's targets; `layout`: the bind group layouts.
 pub(crate) fn pipeline(
     device: &wgpu::Device,
@@ -68,7 +79,7 @@ pub(crate) fn pipeline(
     pass: &open_water_shaders::Pass,
     groups: &[&wgpu::BindGroupLayout],
     buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
-    write_depth: bool,
+    how: Blend,
 ) -> wgpu::RenderPipeline {
     let module = shader(device, pass);
     let layout = pipeline_layout(device, pass.name, groups);
@@ -82,13 +93,17 @@ pub(crate) fn pipeline(
             buffers,
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(desc.depth_stencil(write_depth)),
+        depth_stencil: Some(desc.depth_stencil(how != Blend::Behind)),
         multisample: wgpu::MultisampleState { count: desc.samples, ..wgpu::MultisampleState::default() },
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some(pass.entry_points[1]),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(desc.color_format.into())],
+            targets: &[Some(wgpu::ColorTargetState {
+                format: desc.color_format,
+                blend: (how == Blend::Over).then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
         }),
         multiview_mask: None,
         cache: None,
@@ -151,8 +166,8 @@ impl WaterView {
         );
         let list = grid_indices(desc.grid[0], desc.grid[1]);
         let indices = filled(device, "projected grid", wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&list));
-        let water = pipeline(device, desc, &view::WATER, &[&layout, surface_layout], &[], true);
-        let sky = pipeline(device, desc, &view::SKY, &[&layout], &[], false);
+        let water = pipeline(device, desc, &view::WATER, &[&layout, surface_layout], &[], Blend::Over);
+        let sky = pipeline(device, desc, &view::SKY, &[&layout], &[], Blend::Behind);
         Ok(Self {
             desc: desc.clone(),
             output,
@@ -193,7 +208,8 @@ impl WaterView {
         }
     }
 
-    /// Draws the sea, then the sky where nothing stands in front of it. Draw what is opaque first.
+    /// Draws the sea, then the sky where nothing stands in front of it. Draw what is opaque first, the bed of a land too:
+    /// shallow water lets it show through.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, surface: &wgpu::BindGroup) {
         self.draw_water(pass, surface);
         self.draw_sky(pass);

@@ -63,6 +63,11 @@ struct ViewFrame {
     // Wave height that the water's colour is scaled by, metres.
     wave_height: f32,
     cutout_count: u32,
+    // Level of still water, metres.
+    level: f32,
+    // How much foam shores and walls make.
+    surf: f32,
+    pad: vec2<f32>,
     cutouts: array<Cutout, MAX_CUTOUTS>,
 }
 
