@@ -51,7 +51,8 @@ fn offshore(p: Vec2) -> f32 {
 
 /// Elevation of the bed and the land at a place, metres above the sea's level.
 pub fn elevation(p: Vec2) -> f32 {
-    let warp = Vec2::new(noise(p / 31.0, 1), noise(p / 31.0, 2)) * 5.0 + Vec2::new(noise(p / 11.0, 3), noise(p / 11.0, 4));
+    let warp =
+        Vec2::new(noise(p / 31.0, 1), noise(p / 31.0, 2)) * 5.0 + Vec2::new(noise(p / 11.0, 3), noise(p / 11.0, 4));
     let d = offshore(p + warp);
     // A sandy beach in the east of the basin, rock elsewhere.
     let sand = smoothstep(60.0, 125.0, p.x) * (1.0 - smoothstep(118.0, 150.0, p.y)) * smoothstep(-140.0, -105.0, p.y);
@@ -73,11 +74,13 @@ pub fn elevation(p: Vec2) -> f32 {
     // The sea bed falls to twelve metres.
     height = height.max(-11.2 - 0.8 * smoothstep(-120.0, -250.0, p.x) + 0.35 * noise(p / 40.0, 9));
     // Dredged along the quay.
-    let dredged = smoothstep(-60.0, -40.0, p.x) * (1.0 - smoothstep(96.0, 118.0, p.x)) * (1.0 - smoothstep(-88.0, -68.0, p.y));
+    let dredged =
+        smoothstep(-60.0, -40.0, p.x) * (1.0 - smoothstep(96.0, 118.0, p.x)) * (1.0 - smoothstep(-88.0, -68.0, p.y));
     let wet = smoothstep(-166.0, -150.0, p.y);
     height += dredged * wet * (height.min(-5.6) - height);
     // The yard.
-    let out = (QUAY_LOW - Vec2::new(8.0, 40.0) - p).max(p - (QUAY_HIGH - Vec2::new(-8.0, 40.0))).max(Vec2::ZERO).length();
+    let out =
+        (QUAY_LOW - Vec2::new(8.0, 40.0) - p).max(p - (QUAY_HIGH - Vec2::new(-8.0, 40.0))).max(Vec2::ZERO).length();
     let yard = 1.0 - smoothstep(2.0, 14.0, out);
     height += yard * (QUAY_TOP - 0.08 - height);
     // Rubble under the breakwaters.

@@ -1,10 +1,16 @@
 //! What the scene `harbour` is made of: its plan, the bed and its depth map, and the meshes of land and works.
 
+mod arms;
 mod bed;
+mod ground;
 mod plan;
+mod works;
 
+pub use arms::breakwaters;
 pub use bed::{elevation, picture};
+pub use ground::{Extent, ground};
 pub use plan::{
     BERTH, JETTY, JETTY_HALF_WIDTH, JETTY_TOP, MAP_CORNER, MAP_METRES_PER_LEVEL, MAP_SEA_LEVEL, MAP_SIZE, MAP_TEXEL,
     QUAY_HIGH, QUAY_LOW, QUAY_TOP, arm_outline, walls,
 };
+pub use works::{bollards, jetty, piles, quay};

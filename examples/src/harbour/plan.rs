@@ -116,9 +116,8 @@ mod tests {
                 let d = distance(axis, *p);
                 assert!((d - ARM_HALF_WIDTH).abs() < 0.35, "{p} is {d} m off");
             }
-            let area: f32 = (0..outline.len())
-                .map(|i| 0.5 * outline[i].perp_dot(outline[(i + 1) % outline.len()]))
-                .sum();
+            let area: f32 =
+                (0..outline.len()).map(|i| 0.5 * outline[i].perp_dot(outline[(i + 1) % outline.len()])).sum();
             let length: f32 = axis.windows(2).map(|s| s[0].distance(s[1])).sum();
             let expected = 2.0 * ARM_HALF_WIDTH * length + 1.55 * ARM_HALF_WIDTH * ARM_HALF_WIDTH;
             assert!((area.abs() / expected - 1.0).abs() < 0.03, "{area} for {expected}");
