@@ -1,18 +1,22 @@
 //! A floating body: its state, and one tick of its motion.
 
+mod moorings;
 mod query;
+mod state;
 mod stiffness;
+mod substep;
+mod tick;
 
-use glam::{Mat3, Quat, Vec2, Vec3};
+use glam::{Mat3, Vec2, Vec3};
 
+pub use self::state::{BodyState, Wrench};
 use self::stiffness::stiffness;
-use crate::desc::{Inertia, Radiation, Sampling};
-use crate::drag::implicit;
-use crate::forces::{LocalWater, Pose, gravity, immerse, read_patch, read_points, resistance_axes};
+use crate::desc::Inertia;
+use crate::forces::LocalWater;
 use crate::hull::Waterline;
-use crate::rotation::{matrix, normalized, principal_moments, tumble, turned};
+use crate::rotation::{normalized, principal_moments};
 use crate::source::{Column, Displacement};
-use crate::{BodyDesc, BodyError, Controls, ForcePoint, Home, SurfaceSample, WaterSurface};
+use crate::{BodyDesc, BodyError, ForcePoint, MooringLine, SurfaceSample};
 
 /// Longest tick in s; what is longer is cut.
 const LONGEST_TICK: f32 = 1.0;
@@ -27,33 +31,25 @@ const DEEPEST: f32 = 2.0;
 /// A step farther than this many body lengths was a teleport: it tells the water nothing.
 const TELEPORT: f32 = 4.0;
 
-/// Where a body is and how it moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BodyState {
-    /// Centre of mass, local world, m.
-    pub position: Vec3,
-    /// From hull axes to world axes, unit.
-    pub orientation: Quat,
-    /// Velocity of the centre of mass, m/s.
-    pub velocity: Vec3,
-    /// World axes, rad/s.
-    pub angular_velocity: Vec3,
+/// How a sub-step moves the pose.
+#[derive(Clone, Copy, Debug)]
+struct Scheme {
+    /// Forces are taken at the pose this share of the sub-step ahead.
+    ahead: f32,
+    /// Share of the change of velocity that comes too late for the way of the sub-step.
+    late: f32,
 }
 
-impl BodyState {
-    /// At rest and upright with the centre of mass at `position`.
-    pub fn at_rest(position: Vec3) -> Self {
-        Self { position, orientation: Quat::IDENTITY, velocity: Vec3::ZERO, angular_velocity: Vec3::ZERO }
-    }
-
-    fn is_sane(&self) -> bool {
-        let far = self.position.is_finite() && self.position.abs().max_element() <= LIMITS.2;
-        let q = self.orientation.to_array();
-        far && self.velocity.is_finite() && self.angular_velocity.is_finite() && q.iter().all(|c| c.is_finite())
-    }
+impl Scheme {
+    /// Semi-implicit Euler: forces at the old pose change the velocities, the new ones move it.
+    const OWN: Self = Self { ahead: 0.0, late: 0.0 };
+    /// What an engine makes of a force that is constant over a tick, in `n = 4` semi-implicit steps: the way lags by
+    /// `(n - 1)/(2 n)` of the change. A swing keeps its energy if `ahead = late`, a little more is stable for every
+    /// stiffness and for other `n`.
+    const ENGINE: Self = Self { ahead: 0.4, late: 0.375 };
 }
 
-/// A body afloat. Made from a [`BodyDesc`], moved by [`Body::step`].
+/// A body afloat. Made from a [`BodyDesc`], moved by [`Body::step`] or, in a physics engine, by [`Body::step_wrench`].
 #[derive(Clone, Debug)]
 pub struct Body {
     desc: BodyDesc,
@@ -77,6 +73,9 @@ pub struct Body {
     /// The state was set from outside: the columns start anew.
     restart: bool,
     wash: Displacement,
+    moorings: Vec<MooringLine>,
+    /// Of each line, mean over the last tick.
+    tensions: Vec<f32>,
     immersed: f32,
     /// The waves of its home grid act on it.
     feels_own: bool,
@@ -127,41 +126,14 @@ impl Body {
             columns: vec![Column::default(); points.len()],
             restart: true,
             wash: Displacement::default(),
+            moorings: Vec::new(),
+            tensions: Vec::new(),
             immersed: 0.0,
             feels_own: false,
             radiates: false,
             points,
             desc,
         })
-    }
-
-    /// One tick of `dt` s on `water`, which is sampled once at the tick's start. Allocates nothing.
-    ///
-    /// A `dt` that is not positive does nothing; one above 1 s is cut. A state that is not finite is replaced by the
-    /// last good one, at rest, and counted in [`Body::resets`].
-    pub fn step(&mut self, dt: f32, water: &dyn WaterSurface, controls: &Controls) {
-        if !(dt > 0.0 && dt.is_finite()) {
-            return;
-        }
-        let (dt, controls) = (dt.min(LONGEST_TICK), controls.sane());
-        self.keep_sane();
-        self.read(water);
-        if self.restart {
-            self.measure(0.0, true);
-        }
-        let start = self.state.position;
-        let omega = self.stiffness.max_element().sqrt();
-        let count = (dt * omega / FINEST).ceil().clamp(1.0, MOST_SUBSTEPS);
-        let h = dt / count;
-        for _ in 0..count as u32 {
-            self.substep(h, &controls);
-        }
-        self.keep_sane();
-        let jumped = self.state.position.distance(start) > TELEPORT * self.reach + LIMITS.0 * dt;
-        self.measure(dt, jumped);
-        self.wash = self.propeller_wash(&controls);
-        self.good = self.state;
-        self.restart = false;
     }
 
     /// Replaces a broken state by the last good one and clamps speeds.
@@ -175,109 +147,6 @@ impl Body {
         self.state.velocity = self.state.velocity.clamp_length_max(LIMITS.0);
         self.state.angular_velocity = self.state.angular_velocity.clamp_length_max(LIMITS.1);
         self.state.orientation = normalized(self.state.orientation.to_array());
-    }
-
-    fn pose(&self) -> Pose {
-        let BodyState { position, orientation, velocity, .. } = self.state;
-        Pose { position, rotation: matrix(orientation), velocity }
-    }
-
-    fn read(&mut self, water: &dyn WaterSurface) {
-        let (home, by_grid) = (water.home(), self.desc.radiation == Radiation::Grid);
-        self.feels_own = home == Home::Shared || (home == Home::Own && by_grid);
-        self.radiates = home != Home::None && by_grid;
-        let pose = self.pose();
-        let spots = self.points.iter().map(|p| p.position);
-        let spots = spots.chain(self.desc.engine.map(|e| e.position - self.desc.center_of_mass));
-        for (at, spot) in self.at.iter_mut().zip(spots) {
-            let world = pose.position + pose.rotation * spot;
-            *at = Vec2::new(world.x, world.z);
-        }
-        match self.desc.sampling {
-            Sampling::Points => read_points(water, &self.at, &mut self.samples, &mut self.waters),
-            Sampling::Patch => {
-                let center = Vec2::new(pose.position.x, pose.position.z);
-                read_patch(water, center, self.reach, &self.at, &mut self.waters);
-            }
-        }
-    }
-
-    /// Semi-implicit Euler: forces at the old pose change the velocities, these move the pose. Drag is implicit.
-    fn substep(&mut self, dt: f32, controls: &Controls) {
-        let (pose, desc) = (self.pose(), &self.desc);
-        let own = self.feels_own;
-        let wet = immerse(&self.points, &self.waters, &pose, own, desc.water_density);
-        let share = (wet.volume / self.waterline.volume).min(DEEPEST);
-        let to_body = pose.rotation.transpose();
-        let coefficients = if self.radiates { Default::default() } else { desc.coefficients };
-        let axes = resistance_axes(pose.rotation, wet.slope, desc.hull.is_blunt());
-        let to_axes = axes.transpose();
-        let water = to_axes * wet.velocity;
-        let velocity = to_axes * self.state.velocity;
-
-        let (engine_force, engine_torque) = self.engine(&pose, velocity - water, controls);
-        let added = coefficients.added_mass * share;
-        let whole = Vec3::splat(desc.mass) + added;
-        let drive = to_axes * (wet.force + gravity(desc.mass) + controls.force + pose.rotation * engine_force)
-            + added * (to_axes * Vec3::new(0.0, wet.acceleration, 0.0));
-        // What the sub-steps cannot resolve is held back as an implicit step would.
-        let held = 1.0 + (self.stiffness.x * dt * dt - FINEST * FINEST).max(0.0);
-        let pushed = velocity + drive / (whole * held) * dt - water;
-        let rates = (desc.drag.rates(pushed) + coefficients.damping) * share;
-        let slowed = implicit(pushed, rates, whole, dt);
-        let sideways = whole.z * (slowed.z - pushed.z) / dt;
-        self.state.velocity = axes * (slowed + water);
-
-        let lateral = desc.drag.lateral_center - desc.center_of_mass;
-        let torque =
-            to_body * (wet.torque + controls.torque) + engine_torque + lateral.cross(to_body * axes.z_axis * sideways);
-        let inertia = self.inertia + Mat3::from_diagonal(coefficients.added_inertia * share);
-        let held = 1.0 + (self.stiffness.y * dt * dt - FINEST * FINEST).max(0.0);
-        let turning = to_body * self.state.angular_velocity + inertia.inverse() * torque * (dt / held);
-        let spin = turning - wet.spin;
-        let rates = (desc.drag.angular_rates(spin, slowed.length()) + coefficients.angular_damping) * share;
-        let moments = Vec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
-        let turning = (implicit(spin, rates, moments, dt) + wet.spin).clamp_length_max(LIMITS.1);
-        let (turning, mean) = match desc.inertia {
-            Inertia::Full => tumble(inertia, turning, dt),
-            Inertia::PreRigid => (turning, turning),
-        };
-        self.state.orientation = turned(self.state.orientation, mean * dt);
-        self.state.angular_velocity = matrix(self.state.orientation) * turning;
-        self.state.position += self.state.velocity * dt;
-        self.immersed = wet.volume;
-    }
-
-    /// Thrust and rudder in hull axes, and their torque about the centre of mass.
-    fn engine(&self, pose: &Pose, through_water: Vec3, controls: &Controls) -> (Vec3, Vec3) {
-        let (Some(engine), Some(water)) = (&self.desc.engine, self.waters.last()) else {
-            return (Vec3::ZERO, Vec3::ZERO);
-        };
-        let arm = engine.position - self.desc.center_of_mass;
-        let at = pose.position + pose.rotation * arm;
-        let depth = water.ambient(Vec2::new(at.x, at.z)) - at.y;
-        let force = engine.force(controls, through_water.x, depth, self.desc.water_density);
-        (force, arm.cross(force))
-    }
-
-    /// Foam where the propeller stirs the surface, in proportion to its thrust's share.
-    fn propeller_wash(&self, controls: &Controls) -> Displacement {
-        let (Some(engine), Some(water)) = (&self.desc.engine, self.waters.last()) else {
-            return Displacement::default();
-        };
-        let pose = self.pose();
-        let at = pose.position + pose.rotation * (engine.position - self.desc.center_of_mass);
-        let center = Vec2::new(at.x, at.z);
-        let foam = controls.throttle.abs() * engine.immersion(water.ambient(center) - at.y);
-        Displacement { center, radius: 2.0 * engine.radius, volume: 0.0, foam }
-    }
-
-    /// Compares the displaced columns with those last told.
-    fn measure(&mut self, age: f32, restart: bool) {
-        let pose = self.pose();
-        for ((column, point), water) in self.columns.iter_mut().zip(&self.points).zip(&self.waters) {
-            column.measure(point, water, &pose, age, self.reach, restart);
-        }
     }
 
     /// Appends what the last step changed in the water: for each column the volume now displaced (+) and the one that
@@ -317,5 +186,6 @@ impl Body {
         self.good.position -= shift;
         self.columns.iter_mut().for_each(|c| c.rebase(offset));
         self.wash.center -= offset;
+        self.moorings.iter_mut().for_each(|line| line.anchor -= shift);
     }
 }

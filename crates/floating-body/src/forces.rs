@@ -1,6 +1,6 @@
 //! The forces of Eq. 7 of the paper, one small function each, and the water they read.
 //!
-//! Moorings, contact and wind come in through `Controls::force`. There is no slamming and no planing lift.
+//! Moorings are in `mooring.rs`; contact and wind come in through `Controls::force`. There is no slamming and no planing lift.
 
 use glam::{Mat3, Vec2, Vec3};
 
@@ -44,6 +44,11 @@ impl LocalWater {
             decay: s.decay_wavenumber.clamp(0.0, 100.0),
             level: s.level.clamp(-1.0e4, 1.0e4),
         }
+    }
+
+    /// How fast the surface rises at a fixed place, m/s.
+    pub(crate) fn rise(&self) -> f32 {
+        self.velocity.y - self.slope.dot(Vec2::new(self.velocity.x, self.velocity.z))
     }
 
     /// Height of the ambient surface at a point near by.

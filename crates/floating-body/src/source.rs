@@ -59,9 +59,7 @@ impl Column {
     ) {
         let at = pose.position + pose.rotation * point.position;
         let now = Vec2::new(at.x, at.z);
-        let flow = Vec2::new(water.velocity.x, water.velocity.z);
-        let rise = (water.velocity.y - water.slope.dot(flow)) * age;
-        let depth = water.ambient(now) + rise - at.y;
+        let depth = water.ambient(now) + water.rise() * age - at.y;
         let normal = Vec3::new(-water.slope.x, 1.0, -water.slope.y).normalize();
         let i = point.immersion(depth, pose.rotation.transpose() * normal);
         // What goes on far below hardly moves the surface.

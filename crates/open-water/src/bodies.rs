@@ -3,7 +3,7 @@
 //! The hydrodynamics are `floating-body`'s. Here each body is given the water it sees, and what it displaced is handed
 //! to the grid it disturbs. Bodies do not see each other: collisions are the physics engine's.
 
-use floating_body::{Body, BodyState, Controls, Displacement, Radiation};
+use floating_body::{Body, BodyState, Controls, Displacement, MooringLine, Radiation, Wrench};
 use glam::{Quat, Vec2, Vec3};
 use rayon::prelude::*;
 use slotmap::SlotMap;
@@ -11,7 +11,7 @@ use wave_grid::Source;
 
 use crate::cpu::surface::{BodyWater, Composite};
 use crate::grids::Grids;
-use crate::store::{BodyId, BodyStore, GridId};
+use crate::store::{BodyId, BodyMotion, BodyStore, GridId, Wants};
 use crate::{OpenWaterError, Reports};
 
 /// Bodies per task: a tick of a small body is well below a microsecond.
@@ -49,6 +49,9 @@ pub(crate) struct Entry {
     disturbs: bool,
     /// Takes part in this tick.
     active: bool,
+    wants: Wants,
+    /// Of the last tick, for a store that wants it.
+    wrench: Wrench,
     previous: Option<Pose>,
     displaced: Vec<Displacement>,
 }
@@ -69,6 +72,8 @@ impl Bodies {
             home: None,
             disturbs: false,
             active: false,
+            wants: Wants::State,
+            wrench: Wrench::default(),
             previous: None,
             displaced: Vec::new(),
         });
@@ -96,6 +101,17 @@ impl Bodies {
         let at = *self.index.get(id).ok_or(OpenWaterError::UnknownBody(id))?;
         self.list[at].controls = controls;
         Ok(())
+    }
+
+    pub(crate) fn set_moorings(&mut self, id: BodyId, lines: &[MooringLine]) -> Result<(), OpenWaterError> {
+        let at = *self.index.get(id).ok_or(OpenWaterError::UnknownBody(id))?;
+        Ok(self.list[at].body.set_moorings(lines)?)
+    }
+
+    /// Where the body was drawn at the start of the last tick, if it took part in it.
+    #[cfg(feature = "rapier")]
+    pub(crate) fn previous(&self, id: BodyId) -> Option<Pose> {
+        self.get(id).filter(|entry| entry.active)?.previous
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -135,6 +151,7 @@ impl Bodies {
                 reports.teleports += u64::from(entry.active);
             }
             entry.active = true;
+            entry.wants = store.wants(entry.id);
         }
         self.list.iter().any(|entry| entry.active)
     }
@@ -149,7 +166,10 @@ impl Bodies {
                 entry.disturbs = alone || entry.body.desc().radiation == Radiation::Grid;
                 let water = Composite { ocean, grids };
                 let water = BodyWater { water, home: entry.home, alone, disturbs: entry.disturbs };
-                entry.body.step(dt, &water, &entry.controls);
+                match entry.wants {
+                    Wants::State => entry.body.step(dt, &water, &entry.controls),
+                    Wants::Wrench => entry.wrench = entry.body.step_wrench(dt, &water, &entry.controls),
+                }
                 entry.displaced.clear();
                 entry.body.displacements(&mut entry.displaced);
                 let jumped = entry.previous.is_none();
@@ -176,7 +196,11 @@ impl Bodies {
 
     pub(crate) fn write(&self, store: &mut dyn BodyStore) {
         for entry in self.list.iter().filter(|entry| entry.active) {
-            store.write(entry.id, entry.body.state());
+            let motion = match entry.wants {
+                Wants::State => BodyMotion::State(entry.body.state()),
+                Wants::Wrench => BodyMotion::Wrench(entry.wrench),
+            };
+            store.write(entry.id, motion);
         }
     }
 }

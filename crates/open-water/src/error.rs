@@ -1,6 +1,6 @@
 //! What can be wrong with a description or a call.
 
-use crate::{BodyId, GridId};
+use crate::{BodyId, GridId, MooringId};
 
 /// Why the water refused a description or a call. Nothing is lost: the water stays as it was.
 #[derive(Debug, thiserror::Error)]
@@ -31,6 +31,9 @@ pub enum OpenWaterError {
     /// The handle's grid was removed, or is another water's.
     #[error("grid {0:?} does not exist (any more)")]
     UnknownGrid(GridId),
+    /// The handle's mooring was removed, or its body was, or it is another water's.
+    #[error("mooring {0:?} does not exist (any more)")]
+    UnknownMooring(MooringId),
     /// Ticks must be run in the order in which `advance` gave them.
     #[error("tick {found} was given, but tick {expected} is due: run the ticks of `advance` in order, each once")]
     TickOutOfOrder {

@@ -38,6 +38,7 @@ mod error;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod grids;
+mod moorings;
 mod plan;
 mod planner;
 mod store;
@@ -49,10 +50,13 @@ pub use cpu::surface::WaterSample;
 pub use desc::{Consumers, Follow, GridDesc, GridHome, OpenWaterDesc, Preset, View};
 pub use error::OpenWaterError;
 pub use grids::MAX_GRIDS;
+pub use moorings::Mooring;
 pub use plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
-pub use store::{BodyId, BodyStates, BodyStore, GridId};
+pub use store::{BodyId, BodyMotion, BodyStates, BodyStore, GridId, MooringId, Wants};
 pub use water::{OpenWater, Reports};
 
-pub use floating_body::{Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, Inertia, Radiation, TriMesh};
+pub use floating_body::{
+    Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, Inertia, MooringLine, Radiation, TriMesh, Wrench,
+};
 pub use ocean_spectrum::{CascadeDesc, Ocean, Partition, SeaState, Spectrum, Spreading};
 pub use wave_grid::{Scheme, WaveGrid};

@@ -1,9 +1,10 @@
 //! Where body states live between ticks: in the game's own store.
 //!
-//! The water reads every state before a tick and writes the new one after it, so a game may move, stop or remove a
-//! body in between. It keeps no second truth: a body without a state is left out of the tick.
+//! The water reads every state before a tick and writes the motion after it, so a game may move, stop or remove a body
+//! in between. It keeps no second truth: a body without a state is left out of the tick. A store that moves its bodies
+//! itself, as a physics engine does, asks for wrenches instead of states.
 
-use floating_body::BodyState;
+use floating_body::{BodyState, Wrench};
 use slotmap::{SecondaryMap, new_key_type};
 
 new_key_type! {
@@ -11,14 +12,40 @@ new_key_type! {
     pub struct BodyId;
     /// Handle of a grid; stays invalid for ever once the grid was removed.
     pub struct GridId;
+    /// Handle of a mooring; stays invalid for ever once the mooring or its body was removed.
+    pub struct MooringId;
+}
+
+/// What a store wants to be told of a body's tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Wants {
+    /// Where the body is at the end of the tick: the water moves it.
+    #[default]
+    State,
+    /// What the water does to it over the tick: the store moves it.
+    Wrench,
+}
+
+/// What the water says of a body's tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BodyMotion {
+    /// The state at the end of the tick.
+    State(BodyState),
+    /// Force (N) and torque (N m) about the centre of mass, world axes, constant over the tick, without weight: with them
+    /// and gravity, a plain rigid body of the description's mass and inertia moves as the body does in the water.
+    Wrench(Wrench),
 }
 
 /// The game's store of body states.
 pub trait BodyStore {
     /// The body's state at the start of the tick, or `None` if it takes no part.
     fn read(&self, id: BodyId) -> Option<BodyState>;
-    /// The body's state at the end of the tick.
-    fn write(&mut self, id: BodyId, state: BodyState);
+    /// What [`Self::write`] is to be given for the body.
+    fn wants(&self, _id: BodyId) -> Wants {
+        Wants::State
+    }
+    /// The body's motion in the tick, as [`Self::wants`] asked.
+    fn write(&mut self, id: BodyId, motion: BodyMotion);
 }
 
 /// A ready-made [`BodyStore`] for games without one.
@@ -52,7 +79,9 @@ impl BodyStore for BodyStates {
         self.0.get(id).copied()
     }
 
-    fn write(&mut self, id: BodyId, state: BodyState) {
-        self.0.insert(id, state);
+    fn write(&mut self, id: BodyId, motion: BodyMotion) {
+        if let BodyMotion::State(state) = motion {
+            self.0.insert(id, state);
+        }
     }
 }

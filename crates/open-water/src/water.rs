@@ -11,7 +11,8 @@ use crate::clock::{Clock, Tick, Ticks};
 use crate::cpu::surface::{Composite, WaterSample};
 use crate::desc::{GridDesc, GridHome, OpenWaterDesc};
 use crate::grids::{Grids, Sim};
-use crate::store::{BodyId, BodyStore, GridId};
+use crate::moorings::{Mooring, Moorings};
+use crate::store::{BodyId, BodyStore, GridId, MooringId};
 
 /// What went out of the ordinary since the start; nothing of it is an error.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -34,6 +35,7 @@ pub struct OpenWater {
     pub(crate) ocean: Option<Ocean>,
     pub(crate) grids: Grids,
     pub(crate) bodies: Bodies,
+    pub(crate) moorings: Moorings,
     pub(crate) reports: Reports,
     #[cfg(feature = "gpu")]
     pub(crate) gpu: Option<crate::gpu::Gpu>,
@@ -54,6 +56,7 @@ impl OpenWater {
             ocean,
             grids: Grids::default(),
             bodies: Bodies::default(),
+            moorings: Moorings::default(),
             reports: Reports::default(),
             desc,
             #[cfg(feature = "gpu")]
@@ -85,12 +88,38 @@ impl OpenWater {
         Ok(self.bodies.insert(Body::new(desc)?))
     }
 
-    /// Removes a body; a grid that followed it stays where it is.
+    /// Removes a body and its moorings; a grid that followed it stays where it is.
     ///
     /// # Errors
     /// There is no such body.
     pub fn remove_body(&mut self, id: BodyId) -> Result<(), OpenWaterError> {
-        self.bodies.remove(id)
+        self.bodies.remove(id)?;
+        self.moorings.forget(id);
+        Ok(())
+    }
+
+    /// Makes a body fast with a line.
+    ///
+    /// # Errors
+    /// There is no such body, or a value of the line is out of its range.
+    pub fn add_mooring(&mut self, mooring: Mooring) -> Result<MooringId, OpenWaterError> {
+        self.moorings.add(mooring, &mut self.bodies)
+    }
+
+    /// Casts a line off.
+    ///
+    /// # Errors
+    /// There is no such mooring; it goes with its body.
+    pub fn remove_mooring(&mut self, id: MooringId) -> Result<(), OpenWaterError> {
+        self.moorings.remove(id, &mut self.bodies)
+    }
+
+    /// Tension of a mooring's line in N, mean over the last tick; 0 while it is slack.
+    ///
+    /// # Errors
+    /// There is no such mooring.
+    pub fn mooring_tension(&self, id: MooringId) -> Result<f32, OpenWaterError> {
+        self.moorings.tension(id, &self.bodies)
     }
 
     /// Sets a body's throttle and rudder for the ticks to come.

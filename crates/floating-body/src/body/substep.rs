@@ -1,0 +1,140 @@
+//! A sub-step: the water is read once a tick, forces are summed at a pose, velocities and pose follow.
+
+use glam::{Mat3, Vec2, Vec3};
+
+use super::moorings::Mobility;
+use super::{Body, BodyState, DEEPEST, FINEST, LIMITS, Scheme};
+use crate::desc::{Inertia, Radiation, Sampling};
+use crate::drag::implicit;
+use crate::forces::{Pose, gravity, immerse, read_patch, read_points, resistance_axes};
+use crate::rotation::{matrix, tumble, turned};
+use crate::source::Displacement;
+use crate::{Controls, Home, WaterSurface};
+
+impl Body {
+    pub(super) fn pose(&self) -> Pose {
+        let BodyState { position, orientation, velocity, .. } = self.state;
+        Pose { position, rotation: matrix(orientation), velocity }
+    }
+
+    /// Where the body is `time` s later with its present velocities.
+    fn pose_after(&self, time: f32) -> Pose {
+        let BodyState { position, orientation, velocity, angular_velocity } = self.state;
+        let turning = matrix(orientation).transpose() * angular_velocity;
+        Pose { position: position + velocity * time, rotation: matrix(turned(orientation, turning * time)), velocity }
+    }
+
+    pub(super) fn read(&mut self, water: &dyn WaterSurface) {
+        let (home, by_grid) = (water.home(), self.desc.radiation == Radiation::Grid);
+        self.feels_own = home == Home::Shared || (home == Home::Own && by_grid);
+        self.radiates = home != Home::None && by_grid;
+        let pose = self.pose();
+        let spots = self.points.iter().map(|p| p.position);
+        let spots = spots.chain(self.desc.engine.map(|e| e.position - self.desc.center_of_mass));
+        for (at, spot) in self.at.iter_mut().zip(spots) {
+            let world = pose.position + pose.rotation * spot;
+            *at = Vec2::new(world.x, world.z);
+        }
+        match self.desc.sampling {
+            Sampling::Points => read_points(water, &self.at, &mut self.samples, &mut self.waters),
+            Sampling::Patch => {
+                let center = Vec2::new(pose.position.x, pose.position.z);
+                read_patch(water, center, self.reach, &self.at, &mut self.waters);
+            }
+        }
+    }
+
+    /// Carries the surface on by `time` s with its own velocity.
+    pub(super) fn carry_water(&mut self, time: f32) {
+        for water in &mut self.waters {
+            water.height += water.rise() * time;
+        }
+    }
+
+    /// Forces change the velocities, these move the pose as `scheme` says. Drag is implicit. `part` is the sub-step's
+    /// share of the tick.
+    pub(super) fn substep(&mut self, dt: f32, part: f32, scheme: Scheme, controls: &Controls) {
+        let start = matrix(self.state.orientation).transpose();
+        let pose = if scheme.ahead > 0.0 { self.pose_after(scheme.ahead * dt) } else { self.pose() };
+        let (own, before) = (self.feels_own, self.state.velocity);
+        let spun = start * self.state.angular_velocity;
+        let desc = &self.desc;
+        let wet = immerse(&self.points, &self.waters, &pose, own, desc.water_density);
+        let share = (wet.volume / self.waterline.volume).min(DEEPEST);
+        let to_body = pose.rotation.transpose();
+        let coefficients = if self.radiates { Default::default() } else { desc.coefficients };
+        let axes = resistance_axes(pose.rotation, wet.slope, desc.hull.is_blunt());
+        let to_axes = axes.transpose();
+        let water = to_axes * wet.velocity;
+        let added = coefficients.added_mass * share;
+        let whole = Vec3::splat(desc.mass) + added;
+        let inertia = self.inertia + Mat3::from_diagonal(coefficients.added_inertia * share);
+        if !self.moorings.is_empty() {
+            self.pull(dt, part, &pose, &Mobility { axes, whole, inverse: inertia.inverse() });
+        }
+        let desc = &self.desc;
+        let velocity = to_axes * self.state.velocity;
+
+        let (engine_force, engine_torque) = self.engine(&pose, velocity - water, controls);
+        let drive = to_axes * (wet.force + gravity(desc.mass) + controls.force + pose.rotation * engine_force)
+            + added * (to_axes * Vec3::new(0.0, wet.acceleration, 0.0));
+        // What the sub-steps cannot resolve is held back as an implicit step would.
+        let held = 1.0 + (self.stiffness.x * dt * dt - FINEST * FINEST).max(0.0);
+        let pushed = velocity + drive / (whole * held) * dt - water;
+        let rates = (desc.drag.rates(pushed) + coefficients.damping) * share;
+        let slowed = implicit(pushed, rates, whole, dt);
+        let sideways = whole.z * (slowed.z - pushed.z) / dt;
+        self.state.velocity = axes * (slowed + water);
+
+        let lateral = desc.drag.lateral_center - desc.center_of_mass;
+        let torque =
+            to_body * (wet.torque + controls.torque) + engine_torque + lateral.cross(to_body * axes.z_axis * sideways);
+        let held = 1.0 + (self.stiffness.y * dt * dt - FINEST * FINEST).max(0.0);
+        let turning = start * self.state.angular_velocity + inertia.inverse() * torque * (dt / held);
+        let spin = turning - wet.spin;
+        let rates = (desc.drag.angular_rates(spin, slowed.length()) + coefficients.angular_damping) * share;
+        let moments = Vec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
+        let driven = (implicit(spin, rates, moments, dt) + wet.spin).clamp_length_max(LIMITS.1);
+        let (turning, mean) = match desc.inertia {
+            Inertia::Full => tumble(inertia, driven, dt),
+            Inertia::PreRigid => (driven, driven),
+        };
+        self.state.orientation = turned(self.state.orientation, (mean - (driven - spun) * scheme.late) * dt);
+        self.state.angular_velocity = matrix(self.state.orientation) * turning;
+        let change = self.state.velocity - before;
+        self.state.position += (self.state.velocity - change * scheme.late) * dt;
+        self.immersed = wet.volume;
+    }
+
+    /// Thrust and rudder in hull axes, and their torque about the centre of mass.
+    fn engine(&self, pose: &Pose, through_water: Vec3, controls: &Controls) -> (Vec3, Vec3) {
+        let (Some(engine), Some(water)) = (&self.desc.engine, self.waters.last()) else {
+            return (Vec3::ZERO, Vec3::ZERO);
+        };
+        let arm = engine.position - self.desc.center_of_mass;
+        let at = pose.position + pose.rotation * arm;
+        let depth = water.ambient(Vec2::new(at.x, at.z)) - at.y;
+        let force = engine.force(controls, through_water.x, depth, self.desc.water_density);
+        (force, arm.cross(force))
+    }
+
+    /// Foam where the propeller stirs the surface, in proportion to its thrust's share.
+    pub(super) fn propeller_wash(&self, controls: &Controls) -> Displacement {
+        let (Some(engine), Some(water)) = (&self.desc.engine, self.waters.last()) else {
+            return Displacement::default();
+        };
+        let pose = self.pose();
+        let at = pose.position + pose.rotation * (engine.position - self.desc.center_of_mass);
+        let center = Vec2::new(at.x, at.z);
+        let foam = controls.throttle.abs() * engine.immersion(water.ambient(center) - at.y);
+        Displacement { center, radius: 2.0 * engine.radius, volume: 0.0, foam }
+    }
+
+    /// Compares the displaced columns with those last told.
+    pub(super) fn measure(&mut self, age: f32, restart: bool) {
+        let pose = self.pose();
+        for ((column, point), water) in self.columns.iter_mut().zip(&self.points).zip(&self.waters) {
+            column.measure(point, water, &pose, age, self.reach, restart);
+        }
+    }
+}

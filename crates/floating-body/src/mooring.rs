@@ -1,0 +1,62 @@
+//! A mooring line: a spring with a damper that pulls when taut and does nothing when slack.
+//!
+//! Straight and without weight: no sag, no catenary, no contact with quay or bed.
+
+use glam::Vec3;
+
+use crate::BodyError;
+use crate::error::check_range;
+
+/// A line from a point of the hull to a place that stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MooringLine {
+    /// Where it is made fast on board, hull frame, m.
+    pub point: Vec3,
+    /// Where it is made fast ashore or on the bed, local world, m.
+    pub anchor: Vec3,
+    /// Length in m up to which it hangs slack, 0 to 100000.
+    pub length: f32,
+    /// Tension per stretch beyond `length` in N/m, 0 to 1e9.
+    pub stiffness: f32,
+    /// Tension per speed of stretching in N s/m, 0 to 1e9. It never makes the line push.
+    pub damping: f32,
+}
+
+impl MooringLine {
+    /// A rope fit for a body of `mass` kg: half a metre of stretch where it holds a fifth of the weight, a quarter of
+    /// critical damping.
+    pub fn rope(point: Vec3, anchor: Vec3, length: f32, mass: f32) -> Self {
+        Self { point, anchor, length, stiffness: 4.0 * mass, damping: mass }
+    }
+
+    /// Refuses what a step could not digest.
+    pub(crate) fn check(&self) -> Result<(), BodyError> {
+        for v in self.point.to_array() {
+            check_range("mooring.point", v, -1.0e4, 1.0e4, "within +-10000 m")?;
+        }
+        for v in self.anchor.to_array() {
+            check_range("mooring.anchor", v, -1.0e6, 1.0e6, "within +-1000 km")?;
+        }
+        check_range("mooring.length", self.length, 0.0, 1.0e5, "in [0, 100000] m")?;
+        check_range("mooring.stiffness", self.stiffness, 0.0, 1.0e9, "in [0, 1e9] N/m")?;
+        check_range("mooring.damping", self.damping, 0.0, 1.0e9, "in [0, 1e9] N s/m").map(drop)
+    }
+
+    /// Tension in N over a step of `dt` s: stretched by `stretch` m, growing at `rate` m/s, on a body of which a unit
+    /// impulse along the line changes the rate by `mobility` (1/kg).
+    ///
+    /// The damper is implicit, and so is as much of the spring as the step does not resolve: however stiff, a line takes
+    /// a body's speed away and gives none.
+    pub(crate) fn tension(&self, stretch: f32, rate: f32, mobility: f32, dt: f32) -> f32 {
+        if stretch <= 0.0 {
+            return 0.0;
+        }
+        let swing = self.stiffness * mobility * dt * dt;
+        let unresolved = if swing > RESOLVED { 0.6 * (1.0 - RESOLVED / swing) } else { 0.0 };
+        let resist = self.damping + unresolved * self.stiffness * dt;
+        ((self.stiffness * stretch + resist * rate) / (1.0 + resist * mobility * dt)).max(0.0)
+    }
+}
+
+/// Square of the angle, in radians, by which a line's swing may turn within a step that resolves it.
+const RESOLVED: f32 = 0.25;
