@@ -4,13 +4,15 @@ use glam::{Vec2, Vec3};
 use open_water::{OpenWater, WaterSample};
 use water_view::Camera;
 
-use crate::Subject;
+use crate::{Scene, Subject};
 
 /// Which camera follows the subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mode {
     Chase,
     Orbit,
+    /// One of the scene's own viewpoints.
+    Stand(usize),
 }
 
 /// A camera that follows a subject smoothly.
@@ -37,15 +39,51 @@ fn ease(dt: f32, tau: f32) -> f32 {
     1.0 - (-dt / tau).exp()
 }
 
+fn camera([w, h]: [u32; 2]) -> Camera {
+    Camera { aspect: w as f32 / h as f32, ..Camera::default() }
+}
+
 impl Rig {
-    /// The next camera; `dt` seconds after the last.
-    pub(crate) fn follow(&mut self, subject: &Subject, water: &OpenWater, size: [u32; 2], dt: f32) -> Camera {
+    /// The camera of this number, from 1.
+    pub(crate) fn number(view: u32) -> Self {
+        let mode = match view {
+            0 | 1 => Mode::Chase,
+            2 => Mode::Orbit,
+            more => Mode::Stand(more as usize - 3),
+        };
+        Self { mode, ..Self::default() }
+    }
+
+    /// Goes on to the next camera of scene `S`.
+    pub(crate) fn next<S: Scene>(&mut self) {
+        self.mode = match self.mode {
+            Mode::Chase => Mode::Orbit,
+            Mode::Orbit if S::VIEWPOINTS > 0 => Mode::Stand(0),
+            Mode::Stand(index) if index + 1 < S::VIEWPOINTS => Mode::Stand(index + 1),
+            Mode::Orbit | Mode::Stand(_) => Mode::Chase,
+        };
+        self.eye = None;
+    }
+
+    /// The next camera of a scene; `dt` seconds after the last.
+    pub(crate) fn look<S: Scene>(&mut self, scene: &S, size: [u32; 2], dt: f32) -> Camera {
+        let stand = match self.mode {
+            Mode::Stand(index) => scene.viewpoint(index),
+            Mode::Chase | Mode::Orbit => None,
+        };
+        match stand {
+            Some(at) => camera(size).look_at(at.eye, at.target),
+            None => self.follow(&scene.subject(), scene.water(), size, dt),
+        }
+    }
+
+    fn follow(&mut self, subject: &Subject, water: &OpenWater, size: [u32; 2], dt: f32) -> Camera {
         let forward = subject.orientation * Vec3::X;
         let ahead = Vec2::new(forward.x, forward.z).normalize_or(Vec2::X);
         let ahead = Vec3::new(ahead.x, 0.0, ahead.y);
         let length = subject.length;
         let (eye, target) = match self.mode {
-            Mode::Chase => {
+            Mode::Chase | Mode::Stand(_) => {
                 let side = Vec3::Y.cross(ahead);
                 let back = self.zoom * length * (2.1 * ahead - 0.45 * side) - Vec3::Y * (0.65 * self.zoom * length);
                 (subject.position - back, subject.position + 1.2 * length * ahead + 0.05 * length * Vec3::Y)
@@ -61,7 +99,7 @@ impl Rig {
         if self.eye.is_none() {
             self.target = target;
         }
-        let flat = ease(dt, if self.mode == Mode::Chase { 0.35 } else { 0.08 });
+        let flat = ease(dt, if self.mode == Mode::Orbit { 0.08 } else { 0.35 });
         let lift = ease(dt, 1.2);
         let blend = |from: Vec3, to: Vec3| {
             Vec3::new(from.x + flat * (to.x - from.x), from.y + lift * (to.y - from.y), from.z + flat * (to.z - from.z))
@@ -72,8 +110,7 @@ impl Rig {
         water.sample(&[Vec2::new(eye.x, eye.z)], &mut below);
         eye.y = eye.y.max(below[0].height + 1.0);
         self.eye = Some(eye);
-        let [w, h] = size;
-        Camera { aspect: w as f32 / h as f32, ..Camera::default() }.look_at(eye, self.target)
+        camera(size).look_at(eye, self.target)
     }
 
     /// Turns the orbit by a drag, in pixels.

@@ -33,7 +33,7 @@ struct Log {
     plan: String,
 }
 
-pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup) -> Result<(), SceneError> {
+pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Result<(), SceneError> {
     let folder: PathBuf = options.out.clone().unwrap_or_else(|| "out".into());
     let mut writer = Writer::new(&folder)?;
     let frames = options.frames.unwrap_or(DEFAULT_FRAMES);
@@ -53,7 +53,7 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup) -> Result<(), Scen
         Pick::Cpu => Target::Cpu(TopView::new(size)),
     };
     let mut log = Log { ticks: Timing::default(), frames: Timing::default(), plan: String::new() };
-    let mut rig = Rig::default();
+    let mut rig = Rig::number(options.view);
     let start = Instant::now();
     let bar = ProgressBar::new(u64::from(frames)).with_style(
         ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left").unwrap_or(ProgressStyle::default_bar()),
@@ -67,7 +67,7 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup) -> Result<(), Scen
         let began = Instant::now();
         let picture = match (&mut target, &pick) {
             (Target::Gpu { painter, capture }, Pick::Gpu(gpu)) => {
-                let camera = rig.follow(&subject, scene.water(), size, FRAME);
+                let camera = rig.look(&scene, size, FRAME);
                 let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
                 let plan = painter.record(gpu, &mut scene, &camera, &capture.view, &mut encoder);
                 log.plan = plan.to_string();

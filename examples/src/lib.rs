@@ -8,9 +8,11 @@ mod device;
 mod dice;
 mod draw;
 mod error;
+mod flotsam;
 mod font;
 pub mod harbour;
 mod headless;
+mod launch;
 mod options;
 mod overlay;
 mod props;
@@ -22,18 +24,50 @@ mod window;
 pub use device::{Gpu, Pick};
 pub use dice::Dice;
 pub use error::SceneError;
+pub use flotsam::{Flotsam, Kind};
+pub use launch::{Course, Launch};
 pub use options::{Backend, Options, Quality, Setup};
 pub use props::{barrel, boat_mesh, crate_box, hull_mesh};
-pub use scene::{Helm, Mark, Scene, Subject};
+pub use scene::{Helm, Mark, NoMore, Scene, Subject, Viewpoint};
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use options::KEYS;
+
+use clap::{Args, CommandFactory, FromArgMatches, Parser};
+
+/// The command line of a scene: what all share, and its own.
+#[derive(Debug, Parser)]
+struct Line<M: Args> {
+    #[command(flatten)]
+    options: Options,
+    #[command(flatten)]
+    more: M,
+}
+
+/// The command line of scene `S`.
+fn command<S: Scene>() -> clap::Command {
+    let about = S::ABOUT;
+    Line::<S::More>::command().name(S::NAME).about(about).long_about(format!("{about}\n\n{KEYS}"))
+}
+
+/// The command line read; clap ends the process with its message when it is bad.
+fn read<S: Scene>(matches: &clap::ArgMatches) -> Result<Line<S::More>, SceneError> {
+    let line = Line::<S::More>::from_arg_matches(matches).map_err(SceneError::usage)?;
+    let cameras = 2 + S::VIEWPOINTS;
+    if line.options.view as usize > cameras {
+        return Err(SceneError::Usage(format!(
+            "--view is {}, this scene has cameras 1 to {cameras}",
+            line.options.view
+        )));
+    }
+    Ok(line)
+}
 
 /// Runs a scene as the command line says: exit code 0, 2 for bad arguments or files, 1 for what went wrong later.
 pub fn run<S: Scene>() -> ExitCode {
-    let options = Options::parse();
-    match start::<S>(&options) {
+    let matches = command::<S>().get_matches();
+    match read::<S>(&matches).and_then(|line| start::<S>(&line.options, &line.more)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
@@ -42,9 +76,9 @@ pub fn run<S: Scene>() -> ExitCode {
     }
 }
 
-fn start<S: Scene>(options: &Options) -> Result<(), SceneError> {
+fn start<S: Scene>(options: &Options, more: &S::More) -> Result<(), SceneError> {
     // Bad files are found before a window opens.
-    let setup = options.setup()?;
+    let setup = options.setup(S::SEA, S::assets(more)?)?;
     if options.wants_window() {
         match window::run::<S>(options, &setup)? {
             window::Outcome::Done => return Ok(()),

@@ -31,11 +31,12 @@ pub enum Quality {
     Paper,
 }
 
-/// A boat on an open sea with its wake, among flotsam.
-///
-/// With a display it opens a window; without one, or with --frames or --out, it writes numbered PNGs and a summary.
-/// Keys: W/S or up/down throttle, A/D or left/right steer, P autopilot, C orbit or chase camera (drag and wheel),
-/// space pause, O overlay, Esc quit.
+/// What the help of every scene says after what the scene shows.
+pub(crate) const KEYS: &str = "With a display it opens a window; without one, or with --frames or --out, it writes \
+     numbered PNGs and a summary.\nKeys: W/S or up/down throttle, A/D or left/right steer, P autopilot, C next camera \
+     (drag and wheel: circle the boat), space pause, O overlay, Esc quit.";
+
+/// The options that all scenes share.
 #[derive(Debug, Clone, Parser)]
 pub struct Options {
     /// Draw N frames of 1/30 s into PNGs instead of opening a window [default without a display: 300]
@@ -59,6 +60,9 @@ pub struct Options {
     /// Hull mesh, STL, OBJ or glTF, metres, y up, x forward; open tops are capped [default: an 8 m launch]
     #[arg(long, value_name = "FILE")]
     pub hull: Option<PathBuf>,
+    /// Which camera: 1 follows the boat, 2 circles it, 3 and up stand where the scene puts them
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=9))]
+    pub view: u32,
     /// Chooses the phases of the waves and where the flotsam lies
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
@@ -66,13 +70,15 @@ pub struct Options {
 
 /// What the files of the command line hold.
 #[derive(Debug, Clone)]
-pub struct Setup {
+pub struct Setup<A = ()> {
     /// The water.
     pub water: OpenWaterDesc,
     /// The boat's hull, closed.
     pub hull: Hull,
     /// Whether the hull is the one shipped.
     pub own_hull: bool,
+    /// What the scene's own files hold.
+    pub assets: A,
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
@@ -130,15 +136,14 @@ impl Options {
         self.frames.is_none() && self.out.is_none() && self.backend != Backend::Cpu
     }
 
-    /// Reads the files.
-    pub(crate) fn setup(&self) -> Result<Setup, SceneError> {
+    /// Reads the files; `sea` is the scene's own sea.
+    pub(crate) fn setup<A>(&self, sea: &str, assets: A) -> Result<Setup<A>, SceneError> {
         let mut water = self.preset().water();
         water.seed = self.seed;
         water.sea = match (&self.sea, self.preset) {
             (Some(path), _) => SeaState::from_file(path).map_err(SceneError::usage)?,
             (None, Quality::Paper) => SeaState::phillips(10.0, 0.5),
-            (None, _) => SeaState::parse("moderate.txt", include_str!("../assets/seas/moderate.txt"))
-                .map_err(SceneError::usage)?,
+            (None, _) => SeaState::parse("the scene's sea", sea).map_err(SceneError::usage)?,
         };
         let hull = match &self.hull {
             Some(path) => Hull::from_file(path, Closure::Cap),
@@ -147,13 +152,15 @@ impl Options {
                 open_water::TriMesh::from_bytes("launch.glb", bytes).and_then(|m| Hull::from_mesh(&m, Closure::Cap))
             }
         };
-        Ok(Setup { water, hull: hull.map_err(SceneError::usage)?, own_hull: self.hull.is_none() })
+        Ok(Setup { water, hull: hull.map_err(SceneError::usage)?, own_hull: self.hull.is_none(), assets })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const SEA: &str = include_str!("../assets/seas/moderate.txt");
 
     #[test]
     fn sizes() {
@@ -166,7 +173,7 @@ mod tests {
     #[test]
     fn shipped_files_are_good() {
         let options = Options::try_parse_from(["boat"]).unwrap();
-        let setup = options.setup().unwrap();
+        let setup = options.setup(SEA, ()).unwrap();
         assert!(setup.own_hull && setup.hull.volume() > 5.0);
         assert!(options.wants_window());
     }
@@ -174,9 +181,9 @@ mod tests {
     #[test]
     fn bad_files_are_named() {
         let options = Options::try_parse_from(["boat", "--sea", "nowhere.txt"]).unwrap();
-        assert!(options.setup().unwrap_err().to_string().contains("nowhere.txt"));
+        assert!(options.setup(SEA, ()).unwrap_err().to_string().contains("nowhere.txt"));
         let options = Options::try_parse_from(["boat", "--hull", "nowhere.stl"]).unwrap();
-        let error = options.setup().unwrap_err();
+        let error = options.setup(SEA, ()).unwrap_err();
         assert!(error.to_string().contains("nowhere.stl"), "{error}");
     }
 

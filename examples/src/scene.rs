@@ -1,8 +1,8 @@
 //! What a scene tells the framework.
 
 use glam::{Quat, Vec2, Vec3};
-use open_water::{OpenWater, Tick};
-use water_view::{DryHull, MeshView};
+use open_water::{BodyId, OpenWater, Tick};
+use water_view::{DryHull, MeshView, WaterLook};
 
 use crate::SceneError;
 use crate::options::{Options, Setup};
@@ -34,16 +34,62 @@ pub struct Mark {
     pub color: [u8; 3],
 }
 
+impl Mark {
+    /// A shape given by `corners` (x, z) in a body's frame; `None` for a body that is not drawn.
+    pub fn of(water: &OpenWater, body: BodyId, corners: &[(f32, f32)], color: [u8; 3]) -> Option<Self> {
+        let pose = water.drawn_pose(body)?;
+        let world = |&(x, z): &(f32, f32)| {
+            let p = pose.position + pose.orientation * Vec3::new(x, 0.0, z);
+            Vec2::new(p.x, p.z)
+        };
+        Some(Self { outline: corners.iter().map(world).collect(), color })
+    }
+}
+
+/// A camera that stands somewhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Viewpoint {
+    /// Where it stands, local metres.
+    pub eye: Vec3,
+    /// What it looks at.
+    pub target: Vec3,
+}
+
+/// No options beside those of every scene.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+pub struct NoMore {}
+
 /// A runnable scene.
 pub trait Scene: Sized + 'static {
     /// Its name, for the window and the summary.
     const NAME: &'static str;
 
+    /// What it shows, one sentence for the help.
+    const ABOUT: &'static str;
+
+    /// Its sea when the command line names none: a text as `SeaState::parse` reads it.
+    const SEA: &'static str = include_str!("../assets/seas/moderate.txt");
+
+    /// How many cameras stand at viewpoints of its own.
+    const VIEWPOINTS: usize = 0;
+
+    /// Options of its own.
+    type More: clap::Args + 'static;
+
+    /// What the files named by them hold.
+    type Assets: 'static;
+
+    /// Reads its files.
+    ///
+    /// # Errors
+    /// A file is bad.
+    fn assets(more: &Self::More) -> Result<Self::Assets, SceneError>;
+
     /// Builds the scene around a water that has no bodies yet.
     ///
     /// # Errors
     /// Something in `setup` does not fit.
-    fn new(options: &Options, setup: &Setup, water: OpenWater) -> Result<Self, SceneError>;
+    fn new(options: &Options, setup: &Setup<Self::Assets>, water: OpenWater) -> Result<Self, SceneError>;
 
     /// The water.
     fn water(&self) -> &OpenWater;
@@ -63,8 +109,24 @@ pub trait Scene: Sized + 'static {
     /// Says where they stand at the drawn moment.
     fn place(&mut self, queue: &wgpu::Queue, meshes: &mut MeshView);
 
-    /// A hull in which no water shows, at the drawn moment.
-    fn dry(&self) -> Option<DryHull>;
+    /// Hulls in which no water shows, at the drawn moment.
+    fn dry(&self) -> [Option<DryHull>; 4];
+
+    /// Colour of the water.
+    fn look(&self) -> WaterLook {
+        WaterLook::default()
+    }
+
+    /// One of the scene's own cameras, fewer than `VIEWPOINTS`.
+    fn viewpoint(&self, _index: usize) -> Option<Viewpoint> {
+        None
+    }
+
+    /// Centre and width of the view from above, metres: the subject's surroundings.
+    fn map(&self) -> (Vec2, f32) {
+        let at = self.subject().position;
+        (Vec2::new(at.x, at.z), 120.0)
+    }
 
     /// What the camera follows.
     fn subject(&self) -> Subject;

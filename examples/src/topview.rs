@@ -6,8 +6,6 @@ use open_water::WaterSample;
 
 use crate::{Mark, Scene};
 
-/// Width of the picture, metres.
-const WIDTH: f32 = 120.0;
 /// Pixels between samples of the water.
 const STRIDE: u32 = 3;
 
@@ -23,13 +21,13 @@ impl TopView {
         Self { size, points: Vec::new(), samples: Vec::new() }
     }
 
-    /// The scene from above, its subject in the middle; x is right, z is down.
+    /// The scene from above, the part it shows; x is right, z is down.
     pub(crate) fn draw<S: Scene>(&mut self, scene: &mut S) -> RgbaImage {
         scene.look_down();
         let [width, height] = self.size;
-        let scale = WIDTH / width as f32;
-        let subject = scene.subject().position;
-        let corner = Vec2::new(subject.x, subject.z) - 0.5 * scale * Vec2::new(width as f32, height as f32);
+        let (center, across) = scene.map();
+        let scale = across / width as f32;
+        let corner = center - 0.5 * scale * Vec2::new(width as f32, height as f32);
         let (columns, rows) = (width.div_ceil(STRIDE) + 1, height.div_ceil(STRIDE) + 1);
         self.points.clear();
         self.points.extend(

@@ -51,9 +51,9 @@ struct Input {
     cursor: Option<(f32, f32)>,
 }
 
-struct App<'a, S> {
+struct App<'a, S: Scene> {
     options: &'a Options,
-    setup: &'a Setup,
+    setup: &'a Setup<S::Assets>,
     live: Option<Live<S>>,
     rig: Rig,
     input: Input,
@@ -61,13 +61,13 @@ struct App<'a, S> {
     end: Result<Option<String>, SceneError>,
 }
 
-pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup) -> Result<Outcome, SceneError> {
+pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Result<Outcome, SceneError> {
     let event_loop = match EventLoop::new() {
         Ok(event_loop) => event_loop,
         Err(error) => return Ok(Outcome::NoDisplay(error.to_string())),
     };
     let input = Input { autopilot: true, ..Input::default() };
-    let mut app = App::<S> { options, setup, live: None, rig: Rig::default(), input, end: Ok(None) };
+    let mut app = App::<S> { options, setup, live: None, rig: Rig::number(options.view), input, end: Ok(None) };
     event_loop.run_app(&mut app).map_err(|error| SceneError::Gpu(error.to_string()))?;
     Ok(match app.end? {
         Some(why) => Outcome::NoDisplay(why),
@@ -80,7 +80,7 @@ impl<S: Scene> Live<S> {
     fn open(
         event_loop: &ActiveEventLoop,
         options: &Options,
-        setup: &Setup,
+        setup: &Setup<S::Assets>,
     ) -> Result<Result<Self, String>, SceneError> {
         let [w, h] = options.size();
         let attributes = Window::default_attributes().with_title(S::NAME).with_inner_size(PhysicalSize::new(w, h));
@@ -151,7 +151,7 @@ impl<S: Scene> Live<S> {
         let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let size = self.painter.size();
-        let camera = rig.follow(&self.scene.subject(), self.scene.water(), size, dt.min(0.1));
+        let camera = rig.look(&self.scene, size, dt.min(0.1));
         let plan = self.painter.record(&self.gpu, &mut self.scene, &camera, &view, &mut encoder);
         self.plan = plan.to_string();
         if !input.hidden {
@@ -183,7 +183,7 @@ impl Input {
         ]
     }
 
-    fn key(&mut self, code: KeyCode, event: &KeyEvent, rig: &mut Rig) {
+    fn key<S: Scene>(&mut self, code: KeyCode, event: &KeyEvent, rig: &mut Rig) {
         use KeyCode as K;
         self.keys.retain(|k| *k != code);
         if event.state != ElementState::Pressed {
@@ -199,7 +199,7 @@ impl Input {
             K::KeyP => self.autopilot = !self.autopilot,
             K::Space => self.paused = !self.paused,
             K::KeyO => self.hidden = !self.hidden,
-            K::KeyC => rig.mode = if rig.mode == Mode::Chase { Mode::Orbit } else { Mode::Chase },
+            K::KeyC => rig.next::<S>(),
             _ => {}
         }
     }
@@ -228,7 +228,7 @@ impl<S: Scene> ApplicationHandler for App<'_, S> {
             WindowEvent::Resized(size) => live.resize(size),
             WindowEvent::KeyboardInput { event, .. } => match event.physical_key {
                 PhysicalKey::Code(KeyCode::Escape) => event_loop.exit(),
-                PhysicalKey::Code(code) => self.input.key(code, &event, &mut self.rig),
+                PhysicalKey::Code(code) => self.input.key::<S>(code, &event, &mut self.rig),
                 PhysicalKey::Unidentified(_) => {}
             },
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => {

@@ -1,0 +1,155 @@
+//! A boat with its wake, and the course that its autopilot keeps.
+
+use glam::{Affine3A, DVec2, Vec2, Vec3};
+use open_water::{BodyId, BodyState, GridId, OpenWater};
+use water_view::DryHull;
+
+use crate::{Mark, Subject};
+
+/// A boat as scenes draw it and as cameras follow it.
+#[derive(Debug, Clone)]
+pub struct Launch {
+    /// Its body.
+    pub body: BodyId,
+    /// The grid that moves with it; none when moored.
+    pub wake: Option<GridId>,
+    /// Corners of its hull's bounding box, hull frame, metres.
+    pub bounds: (Vec3, Vec3),
+    /// Drawn (height, foam) of the wake's grid, for the view from above.
+    cells: Vec<[f32; 2]>,
+}
+
+impl Launch {
+    /// A boat.
+    pub fn new(body: BodyId, wake: Option<GridId>, bounds: (Vec3, Vec3)) -> Self {
+        Self { body, wake, bounds, cells: Vec::new() }
+    }
+
+    /// Its hull, in which no water shows.
+    pub fn dry(&self, water: &OpenWater) -> Option<DryHull> {
+        let pose = water.drawn_pose(self.body)?;
+        let world_from_hull = Affine3A::from_rotation_translation(pose.orientation, pose.position);
+        Some(DryHull { world_from_hull, low: self.bounds.0, high: self.bounds.1 })
+    }
+
+    /// What a camera follows; `state` stands in before the first tick.
+    pub fn subject(&self, water: &OpenWater, state: BodyState) -> Subject {
+        let length = self.bounds.1.x - self.bounds.0.x;
+        match water.drawn_pose(self.body) {
+            Some(pose) => Subject { position: pose.position, orientation: pose.orientation, length },
+            None => Subject { position: state.position, orientation: state.orientation, length },
+        }
+    }
+
+    /// Gets ready for [`Self::foam`].
+    pub fn look_down(&mut self, water: &OpenWater) {
+        if let Some(Ok(Some(grid))) = self.wake.map(|wake| water.grid(wake)) {
+            let [nx, nz] = grid.desc().cells;
+            self.cells.resize((nx * nz) as usize, [0.0; 2]);
+            grid.draw(1.0, &mut self.cells);
+        }
+    }
+
+    /// Foam of its wake at a place, 0 to 1.
+    pub fn foam(&self, water: &OpenWater, at: Vec2) -> f32 {
+        let Some(Ok(Some(grid))) = self.wake.map(|wake| water.grid(wake)) else { return 0.0 };
+        let desc = grid.desc();
+        let cell = (at - grid.window().local_corner(DVec2::ZERO)) / desc.cell_size;
+        let inside = cell.cmpge(Vec2::ZERO).all() && cell.x < desc.cells[0] as f32 && cell.y < desc.cells[1] as f32;
+        let index = cell.y as usize * desc.cells[0] as usize + cell.x as usize;
+        if inside { self.cells.get(index).map_or(0.0, |cell| cell[1]) } else { 0.0 }
+    }
+
+    /// Its outline from above.
+    pub fn mark(&self, water: &OpenWater) -> Option<Mark> {
+        let (low, high) = self.bounds;
+        let side = |x: f32, z: f32| (low.x + x * (high.x - low.x), low.z + z * (high.z - low.z));
+        let shape = [
+            side(0.0, 0.0),
+            side(0.6, 0.0),
+            side(0.85, 0.2),
+            side(1.0, 0.5),
+            side(0.85, 0.8),
+            side(0.6, 1.0),
+            side(0.0, 1.0),
+        ];
+        Mark::of(water, self.body, &shape, [235, 235, 230])
+    }
+}
+
+/// A closed course from mark to mark.
+#[derive(Debug, Clone)]
+pub struct Course {
+    /// Marks (x, z), local metres, and the throttle towards each.
+    marks: Vec<(Vec2, f32)>,
+    next: usize,
+}
+
+impl Course {
+    /// Starts towards the second mark. There must be two at least; a course of fewer steers nowhere.
+    pub fn new(marks: Vec<(Vec2, f32)>) -> Self {
+        let next = 1 % marks.len().max(1);
+        Self { marks, next }
+    }
+
+    /// Throttle and rudder for a boat at `position` that points along `forward`. It aims at a point a little ahead on the
+    /// leg, so it comes back onto it; a mark counts as passed half that distance before.
+    pub fn steer(&mut self, position: Vec3, forward: Vec3) -> [f32; 2] {
+        const AHEAD: f32 = 16.0;
+        let n = self.marks.len();
+        if n < 2 {
+            return [0.0; 2];
+        }
+        let at = Vec2::new(position.x, position.z);
+        let ahead = Vec2::new(forward.x, forward.z).normalize_or(Vec2::X);
+        for _ in 0..n {
+            let (from, to) = (self.marks[(self.next + n - 1) % n].0, self.marks[self.next].0);
+            let leg = to - from;
+            let left = leg.length() - (at - from).dot(leg.normalize_or(Vec2::X));
+            if left > 0.5 * AHEAD {
+                break;
+            }
+            self.next = (self.next + 1) % n;
+        }
+        let (from, (to, throttle)) = (self.marks[(self.next + n - 1) % n].0, self.marks[self.next]);
+        let (leg, length) = ((to - from).normalize_or(Vec2::X), from.distance(to));
+        let along = ((at - from).dot(leg) + AHEAD).min(length);
+        let aim = (from + leg * along - at).normalize_or(leg);
+        let turn = ahead.angle_to(aim);
+        // Slower round the corners.
+        let throttle = throttle * (1.0 - 0.45 * (turn.abs() / 1.2).min(1.0));
+        [throttle, (1.6 * turn).clamp(-1.0, 1.0)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_boat_that_turns_with_its_rudder_rounds_the_marks() {
+        let marks = [(0.0, 0.0), (80.0, 0.0), (80.0, 60.0), (0.0, 60.0)].map(|(x, z)| (Vec2::new(x, z), 0.5));
+        let mut course = Course::new(marks.to_vec());
+        let (mut at, mut heading) = (Vec2::new(2.0, -6.0), 0.0f32);
+        let mut far = 0.0f32;
+        let mut passed = std::collections::BTreeSet::new();
+        for _ in 0..2400 {
+            let forward = Vec2::from_angle(heading);
+            let [throttle, rudder] = course.steer(Vec3::new(at.x, 0.0, at.y), Vec3::new(forward.x, 0.0, forward.y));
+            assert!((0.0..=0.5).contains(&throttle) && rudder.abs() <= 1.0);
+            heading += 0.5 * rudder / 30.0;
+            at += forward * (10.0 * throttle / 30.0);
+            let out = (Vec2::new(40.0, 30.0) - at).abs() - Vec2::new(40.0, 30.0);
+            far = far.max(out.max_element());
+            passed.insert(course.next);
+        }
+        assert_eq!(passed.len(), 4, "every mark was steered for");
+        assert!(far < 9.0, "{far} m outside of the course");
+    }
+
+    #[test]
+    fn a_course_of_one_mark_goes_nowhere() {
+        assert_eq!(Course::new(vec![(Vec2::ONE, 1.0)]).steer(Vec3::ZERO, Vec3::X), [0.0; 2]);
+        assert_eq!(Course::new(Vec::new()).steer(Vec3::ZERO, Vec3::X), [0.0; 2]);
+    }
+}
