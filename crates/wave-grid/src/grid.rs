@@ -1,14 +1,19 @@
 //! A grid of interactive waves homed on the CPU.
 
+use std::sync::Arc;
+
 use glam::{DVec2, Vec2};
 
 use crate::border::{Axis, Profile};
 use crate::cpu::foam::FoamLaw;
 use crate::cpu::kernels::Coefficients;
-use crate::cpu::tiles::{Mode, Tiles};
+use crate::cpu::step::Setting;
+use crate::cpu::tiles::{Class, Mode, Tiles};
+use crate::ground::{Cells, Ground};
+use crate::medium::{CellLaw, Medium, SharedMedium};
 use crate::source::{Footprint, HEIGHT_LIMIT};
 use crate::window::{Move, Place};
-use crate::{GridDesc, GridError, Source, Stepping, Window, cpu, state::State};
+use crate::{GridDesc, GridError, Source, Stepping, cpu, state::State};
 
 /// The waves of a grid at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -23,7 +28,7 @@ pub struct GridSample {
 
 /// Waves on a window of cells that follows a target, absorbed at its border.
 ///
-/// `z_tt + sigma z_t = div(c^2 grad z)`, explicit in time. Cloning it is a snapshot.
+/// `z_tt + sigma z_t = div(c^2 grad z)`, explicit in time, c and sigma as its [`Medium`] has them. Cloning it is a snapshot.
 #[derive(Debug, Clone)]
 pub struct WaveGrid {
     pub(crate) desc: GridDesc,
@@ -32,15 +37,16 @@ pub struct WaveGrid {
     pub(crate) origin: DVec2,
     pub(crate) state: State,
     pub(crate) tiles: Tiles,
+    pub(crate) ground: Option<Ground>,
     coefficients: Coefficients,
     law: FoamLaw,
     profile: Profile,
     axes: [Axis; 2],
     fade: [Vec<f32>; 2],
     /// `previous` already holds the end of the last tick.
-    captured: bool,
-    skipping: bool,
-    dropped: u64,
+    pub(crate) captured: bool,
+    pub(crate) skipping: bool,
+    pub(crate) dropped: u64,
 }
 
 impl WaveGrid {
@@ -59,6 +65,7 @@ impl WaveGrid {
             origin: DVec2::ZERO,
             state: State::new(nx, nz),
             tiles: Tiles::new([nx, nz], place.window.tile_offset()),
+            ground: None,
             coefficients: Coefficients {
                 straight: (stepping.a * straight) as f32,
                 beside: (stepping.a * beside) as f32,
@@ -99,7 +106,10 @@ impl WaveGrid {
         match self.place.follow(target) {
             Move::Stay => {}
             Move::Shift(shift) => {
-                self.tiles.shift(shift);
+                let moved = self.tiles.shift(shift);
+                if let Some(ground) = &mut self.ground {
+                    ground.shift(shift, moved, &mut self.tiles);
+                }
                 if !self.at_rest() {
                     self.set_moving(true);
                     cpu::shift::shift(&mut self.state, shift, self.profile.thickness);
@@ -107,10 +117,47 @@ impl WaveGrid {
             }
             Move::Clear => {
                 self.clear();
-                self.tiles.clear(self.place.window.tile_offset());
+                self.read_ground();
             }
         }
         self.update_fade();
+    }
+
+    /// Sets what the water lies in; `None` (default) is open deep water everywhere. May change while waves run: those in
+    /// what becomes wall or held water are let go, what a wall leaves behind is calm.
+    pub fn set_medium(&mut self, medium: Option<Arc<dyn Medium>>) {
+        let law = CellLaw::new(&self.desc, &self.stepping);
+        let corner = self.place.window.corner;
+        // The ghosts of the old walls go, then whatever stands in the new ones.
+        self.dry_walls();
+        for tile in &mut self.tiles.tiles {
+            tile.class = Class::Plain;
+        }
+        self.ground = medium.map(|medium| Ground::new(SharedMedium(medium), law, corner, &mut self.tiles));
+        self.dry_walls();
+        if let Some(cells) = self.ground.as_ref().and_then(|ground| ground.cells.as_ref()) {
+            let State { z, old, previous, .. } = &mut self.state;
+            cpu::ghosts::fill([z, old, previous], &self.tiles, cells);
+        }
+    }
+
+    /// Reads the medium anew.
+    fn read_ground(&mut self) {
+        if let Some(Ground { medium, law, .. }) = self.ground.take() {
+            self.ground = Some(Ground::new(medium, law, self.place.window.corner, &mut self.tiles));
+        }
+    }
+
+    /// The medium's cells, where it is felt at all.
+    pub(crate) fn cells(&self) -> Option<&Cells> {
+        self.ground.as_ref()?.cells.as_ref()
+    }
+
+    /// Nothing stands in walls and held water, nothing flows through their faces.
+    pub(crate) fn dry_walls(&mut self) {
+        if let Some(cells) = self.ground.as_ref().and_then(|ground| ground.cells.as_ref()) {
+            self.state.dry_walls(cells);
+        }
     }
 
     /// Whether every array is zero.
@@ -138,17 +185,22 @@ impl WaveGrid {
     /// kept within [`HEIGHT_LIMIT`]; below it the volume is written exactly to rounding.
     pub fn add(&mut self, source: Source) -> bool {
         let rim = self.profile.thickness + 1;
-        let Some(footprint) = Footprint::new(source, &self.place.window, self.origin, rim) else {
+        let footprint = Footprint::new(source, &self.place.window, self.origin, rim, self.cells());
+        let Some(footprint) = footprint else {
             self.dropped += 1;
             return false;
         };
         self.capture();
         self.tiles.touch(footprint.range, footprint.height, footprint.foam);
         let [range_x, range_z] = footprint.range;
+        let cells = self.ground.as_ref().and_then(|ground| ground.cells.as_ref());
         for j in range_z[0]..range_z[1] {
             for i in range_x[0]..range_x[1] {
-                let weight = footprint.weight(i, j);
                 let at = j * self.state.nx + i;
+                if cells.is_some_and(|cells| !cells.is_open(at)) {
+                    continue;
+                }
+                let weight = footprint.weight(i, j);
                 let rise = weight * footprint.height;
                 for z in [&mut self.state.z[at], &mut self.state.old[at]] {
                     *z = (*z + rise).clamp(-HEIGHT_LIMIT, HEIGHT_LIMIT);
@@ -160,7 +212,7 @@ impl WaveGrid {
         true
     }
 
-    fn capture(&mut self) {
+    pub(crate) fn capture(&mut self) {
         if !self.captured {
             self.state.previous.copy_from_slice(&self.state.z);
             self.captured = true;
@@ -186,11 +238,22 @@ impl WaveGrid {
         if self.tiles.active == 0 {
             return;
         }
+        let cells = self.ground.as_ref().and_then(|ground| ground.cells.as_ref());
+        let setting = Setting {
+            tiles: &self.tiles,
+            axes: &self.axes,
+            thickness: self.profile.thickness,
+            coefficients: self.coefficients,
+            cells,
+        };
         for _ in 0..self.stepping.substeps {
-            let thickness = self.profile.thickness;
-            cpu::step::step(&mut self.state, &self.tiles, &self.axes, thickness, self.coefficients);
+            cpu::step::step(&mut self.state, &setting);
         }
-        cpu::foam::settle(&mut self.state, &mut self.tiles, self.law);
+        if let Some(cells) = cells {
+            cpu::ghosts::fill([&mut self.state.z, &mut self.state.old], &self.tiles, cells);
+        }
+        let cells = self.ground.as_ref().and_then(|ground| ground.cells.as_ref());
+        cpu::foam::settle(&mut self.state, &mut self.tiles, cells, self.law);
         self.captured = false;
     }
 
@@ -216,69 +279,5 @@ impl WaveGrid {
     pub fn draw(&self, alpha: f32, out: &mut [[f32; 2]]) {
         let alpha = if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) };
         cpu::draw::draw(&self.state, &self.fade, alpha, out);
-    }
-
-    /// Where the window stands: world corner in cells, extent, cell size.
-    pub fn window(&self) -> Window {
-        self.place.window
-    }
-
-    /// The description it was made from.
-    pub fn desc(&self) -> &GridDesc {
-        &self.desc
-    }
-
-    /// Sub-steps, their length and the Courant number.
-    pub fn stepping(&self) -> Stepping {
-        self.stepping
-    }
-
-    /// Heights of all cells without fade, metres, row-major, x fastest.
-    pub fn heights(&self) -> &[f32] {
-        &self.state.z
-    }
-
-    /// Sets the heights now and one sub-step ago (cells as [`Self::heights`]), still foam, no memory in the border.
-    /// Values that are not finite count as zero, others are kept within [`HEIGHT_LIMIT`]; the outermost ring is zero.
-    ///
-    /// # Errors
-    /// [`GridError::InvalidValue`] when a slice has not one value per cell.
-    pub fn impose(&mut self, now: &[f32], before: &[f32]) -> Result<(), GridError> {
-        for (field, given) in [("now", now), ("before", before)] {
-            if given.len() != self.state.z.len() {
-                let bound = "one value per cell";
-                return Err(GridError::InvalidValue { field, value: given.len() as f64, bound });
-            }
-        }
-        self.state.clear();
-        let (nx, nz) = (self.state.nx, self.state.nz);
-        for (array, given) in [(&mut self.state.z, now), (&mut self.state.old, before)] {
-            for j in 1..nz - 1 {
-                let row = j * nx + 1..(j + 1) * nx - 1;
-                for (z, v) in array[row.clone()].iter_mut().zip(&given[row]) {
-                    *z = if v.is_finite() { v.clamp(-HEIGHT_LIMIT, HEIGHT_LIMIT) } else { 0.0 };
-                }
-            }
-        }
-        self.captured = false;
-        self.capture();
-        self.tiles.activate_all();
-        cpu::foam::measure(&self.state, &mut self.tiles);
-        Ok(())
-    }
-
-    /// Sources dropped so far, see [`Self::add`].
-    pub fn dropped_sources(&self) -> u64 {
-        self.dropped
-    }
-
-    /// Whether nothing moves: ticks cost nothing and there is nothing to draw.
-    pub fn is_asleep(&self) -> bool {
-        self.tiles.asleep()
-    }
-
-    /// Tiles stepped in the last tick.
-    pub fn active_tiles(&self) -> usize {
-        self.tiles.active
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A [`WaveGrid`] solves the wave equation on a window of cells that follows a target in whole cells. Bodies disturb it
 //! with [`Source`]s; its border absorbs what leaves; its drawn height fades to zero at the edge, so grids and
-//! ambient sea can be summed. It knows nothing of bodies or of the ambient sea, and its waves all travel at one speed.
+//! ambient sea can be summed. Waves of all lengths travel at one speed in deep water; a [`Medium`] slows them over a bed,
+//! damps them and puts walls in their way. A grid knows nothing of bodies or of the ambient sea.
 //!
 //! ```
 //! use glam::{DVec2, Vec2};
@@ -22,6 +23,7 @@
 //! # Ok::<(), wave_grid::GridError>(())
 //! ```
 
+mod access;
 mod border;
 mod cpu;
 mod desc;
@@ -29,7 +31,9 @@ mod error;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod grid;
+mod ground;
 mod measure;
+mod medium;
 mod source;
 mod state;
 mod window;
@@ -38,5 +42,6 @@ pub use cpu::tiles::{QUIET_FOAM, QUIET_HEIGHT};
 pub use desc::{GridDesc, MAX_SUBSTEPS, Scheme, Stepping, TILE};
 pub use error::GridError;
 pub use grid::{GridSample, WaveGrid};
+pub use medium::{CellKind, Medium, MediumCell};
 pub use source::{HEIGHT_LIMIT, Source};
 pub use window::Window;

@@ -4,7 +4,7 @@ use crate::WaveGrid;
 
 impl WaveGrid {
     /// The invariant of the undamped scheme away from its border, m^4/s^2:
-    /// h^2/2 sum [ ((z - z_old)/dt)^2 - z_old (a L z)/dt^2 ], L the discrete Laplacian. In f64, row by row.
+    /// h^2/2 sum [ ((z - z_old)/dt)^2 - z_old div(a grad z)/dt^2 ] over open water. In f64, row by row.
     pub fn energy(&self) -> f64 {
         let state = &self.state;
         let nx = state.nx;
@@ -12,10 +12,18 @@ impl WaveGrid {
         let a = self.stepping.a;
         let (edge, corner) = (a * (straight - 2.0 * beside), a * 2.0 * beside);
         let z = |i: usize| f64::from(state.z[i]);
+        let cells = self.cells();
         let mut sum = 0.0;
         for j in 1..state.nz - 1 {
             for at in j * nx + 1..(j + 1) * nx - 1 {
                 let old = f64::from(state.old[at]);
+                if let Some(cells) = cells {
+                    if cells.is_open(at) {
+                        let rate = z(at) - old;
+                        sum += rate * rate - old * cells.divergence(&state.z, at);
+                    }
+                    continue;
+                }
                 let cross = z(at - 1) + z(at + 1) + z(at - nx) + z(at + nx) - 4.0 * z(at);
                 let diagonal = z(at - nx - 1) + z(at - nx + 1) + z(at + nx - 1) + z(at + nx + 1) - 4.0 * z(at);
                 let rate = z(at) - old;
@@ -26,10 +34,11 @@ impl WaveGrid {
         0.5 * h * h * sum / (self.stepping.dt * self.stepping.dt)
     }
 
-    /// Water above the ambient level, cubic metres.
+    /// Water above the ambient level, cubic metres, walls left out.
     pub fn volume(&self) -> f64 {
         let h = f64::from(self.desc.cell_size);
-        h * h * self.state.z.iter().map(|z| f64::from(*z)).sum::<f64>()
+        let open = |at: usize| self.cells().is_none_or(|cells| cells.is_open(at));
+        h * h * self.state.z.iter().enumerate().filter(|(at, _)| open(*at)).map(|(_, z)| f64::from(*z)).sum::<f64>()
     }
 
     /// Whether no value is NaN or infinite.

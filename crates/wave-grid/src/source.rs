@@ -7,11 +7,15 @@
 use glam::{DVec2, Vec2};
 
 use crate::Window;
+use crate::ground::Cells;
 
 pub use open_water_shaders::grid::HEIGHT_LIMIT;
 
 /// Least radius that counts, and what is added to it for the kernel's fall, cells.
 const SOFT: f64 = 1.5;
+
+/// Least share of a source's weight that must lie over open water: what it holds is all written there.
+const LEAST_OPEN: f64 = 0.125;
 
 /// A disturbance of a grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,8 +58,14 @@ pub(crate) struct Footprint {
 
 impl Footprint {
     /// `None` when a number is not finite, the radius is negative or a cell of the footprint lies in the border layer
-    /// (`rim` cells on each side) or outside.
-    pub(crate) fn new(source: Source, window: &Window, origin: DVec2, rim: usize) -> Option<Self> {
+    /// (`rim` cells on each side) or outside; and when walls or held water take more than seven eighths of it.
+    pub(crate) fn new(
+        source: Source,
+        window: &Window,
+        origin: DVec2,
+        rim: usize,
+        cells: Option<&Cells>,
+    ) -> Option<Self> {
         let (center, radius, volume, foam) = match source {
             Source::Displacement { center, radius, volume } => (center, radius, volume, 0.0),
             Source::Turbulence { center, radius, foam } => (center, radius, 0.0, foam),
@@ -82,12 +92,19 @@ impl Footprint {
             foam: foam.clamp(0.0, 1.0),
             range,
         };
-        if volume != 0.0 {
-            let mut sum = 0.0f64;
+        if volume != 0.0 || cells.is_some() {
+            let (mut sum, mut total) = (0.0f64, 0.0f64);
             for j in range[1][0]..range[1][1] {
                 for i in range[0][0]..range[0][1] {
-                    sum += f64::from(footprint.weight(i, j));
+                    let weight = f64::from(footprint.weight(i, j));
+                    total += weight;
+                    if cells.is_none_or(|cells| cells.is_open(j * cells.nx + i)) {
+                        sum += weight;
+                    }
                 }
+            }
+            if sum < LEAST_OPEN * total {
+                return None;
             }
             let height = f64::from(volume) / (h * h * sum);
             footprint.height = height.clamp(-f64::from(HEIGHT_LIMIT), f64::from(HEIGHT_LIMIT)) as f32;

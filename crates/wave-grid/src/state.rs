@@ -1,5 +1,7 @@
 //! The arrays of a grid, row-major, x fastest.
 
+use crate::ground::Cells;
+
 /// Fields of a window of `nx * nz` cells.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct State {
@@ -53,6 +55,25 @@ impl State {
         for j in z {
             for array in [&mut *height, &mut *old, &mut *foam, &mut *a, &mut *b, &mut *c, &mut *d] {
                 array[j * nx + x.start..j * nx + x.end].fill(0.0);
+            }
+        }
+    }
+
+    /// Zeroes walls, held water, and the memory of faces that nothing flows through.
+    pub(crate) fn dry_walls(&mut self, cells: &Cells) {
+        let Self { nx: _, nz: _, z, old, previous, foam, phi, phi_next } = self;
+        for at in 0..cells.a.len() {
+            if !cells.is_open(at) {
+                for array in [&mut *z, &mut *old, &mut *previous, &mut *foam] {
+                    array[at] = 0.0;
+                }
+            }
+        }
+        for (k, faces) in cells.faces.iter().enumerate() {
+            for phi in [&mut phi[k], &mut phi_next[k]] {
+                for (phi, face) in phi.iter_mut().zip(faces) {
+                    *phi = if *face == 0.0 { 0.0 } else { *phi };
+                }
             }
         }
     }

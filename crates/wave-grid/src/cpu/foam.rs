@@ -4,8 +4,9 @@
 //! g and decays with time constant [`DECAY`]. Real crests break below 1 g; here all waves travel at one speed c, and
 //! c^2 k of the short ones is many times the g of real ones, so the onset is chosen by eye. Only for looks.
 
-use crate::cpu::tiles::{Mode, Tiles};
+use crate::cpu::tiles::{Class, Mode, Tiles};
 use crate::desc::TILE;
+use crate::ground::Cells;
 use crate::state::State;
 
 /// Downward acceleration where foam begins, in g.
@@ -57,7 +58,7 @@ pub(crate) fn measure(state: &State, tiles: &mut Tiles) {
 }
 
 /// Measures the active tiles and updates their foam from z as the last sub-step found it.
-pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, law: FoamLaw) {
+pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, cells: Option<&Cells>, law: FoamLaw) {
     measure(state, tiles);
     let [count_x, count_z] = tiles.count;
     for tz in 0..count_z {
@@ -71,7 +72,11 @@ pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, law: FoamLaw) {
                 .flat_map(|z| &tiles.row(z)[tx.saturating_sub(1)..(tx + 2).min(count_x)])
                 .fold(0.0f32, |most, t| most.max(t.height));
             if tile.foam > 0.0 || 8.0 * around * law.scale > law.onset {
-                let foam = tile_foam(state, tiles.span(0, tx), tiles.span(1, tz), law);
+                let (x, z) = (tiles.span(0, tx), tiles.span(1, tz));
+                let foam = tile_foam(state, x.clone(), z.clone(), law);
+                if let Some(cells) = cells.filter(|_| tile.class == Class::Mixed) {
+                    no_foam_on_land(&mut state.foam, cells, x, z);
+                }
                 tiles.tiles[tz * count_x + tx].foam = foam;
             }
         }
@@ -92,6 +97,14 @@ fn tile_height(state: &State, x: Span, z: Span) -> f32 {
         }
     }
     most.into_iter().fold(0.0, f32::max)
+}
+
+fn no_foam_on_land(foam: &mut [f32], cells: &Cells, x: Span, z: Span) {
+    for j in z {
+        for at in x.clone().map(|i| j * cells.nx + i) {
+            foam[at] = if cells.a[at] > 0.0 { foam[at] } else { 0.0 };
+        }
+    }
 }
 
 fn tile_foam(state: &mut State, x: Span, z: Span, law: FoamLaw) -> f32 {

@@ -16,7 +16,9 @@ pub(crate) struct Coefficients {
     pub(crate) damping: f32,
 }
 
-fn flush(x: f32) -> f32 {
+/// Zero instead of what would become a denormal.
+#[inline(always)]
+pub(crate) fn flush(x: f32) -> f32 {
     if x.abs() < TINY { 0.0 } else { x }
 }
 
@@ -116,9 +118,9 @@ pub(crate) fn layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], r
     }
 }
 
-/// phi on the edges between the last cells and the zero ring: `before` and `ring` are the last two values along the
-/// normal with their neighbours on both sides.
-pub(crate) fn rim_phi(phi: f32, before: [f32; 3], edge: [f32; 3], across: f32, k: Coefficients) -> f32 {
-    let flux = -k.straight * before[1] - k.beside * (before[0] + before[2]);
+/// phi on an edge between a last cell and the zero ring: `before` are the heights of that cell and of its neighbours
+/// along the ring, `weights` those of their jumps.
+pub(crate) fn rim_phi(phi: f32, before: [f32; 3], edge: [f32; 3], across: f32, weights: [f32; 3]) -> f32 {
+    let flux = -weights[1] * before[1] - (weights[0] * before[0] + weights[2] * before[2]);
     flush(edge[2] * phi + edge[1] * (across - edge[0]) * flux)
 }

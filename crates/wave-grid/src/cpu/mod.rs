@@ -2,7 +2,9 @@
 
 pub(crate) mod draw;
 pub(crate) mod foam;
+pub(crate) mod ghosts;
 pub(crate) mod kernels;
+pub(crate) mod mixed;
 pub(crate) mod sample;
 pub(crate) mod shift;
 pub(crate) mod step;

@@ -45,7 +45,8 @@ pub(crate) fn shift(state: &mut State, shift: [i64; 2], thickness: usize) {
     }
 }
 
-fn shift_array(array: &mut [f32], nx: usize, nz: usize, shift: [i64; 2]) {
+/// Moves one array; what enters is zero.
+pub(crate) fn shift_array(array: &mut [f32], nx: usize, nz: usize, shift: [i64; 2]) {
     let offset = shift[1] * nx as i64 + shift[0];
     let distance = offset.unsigned_abs() as usize;
     let len = array.len();

@@ -1,8 +1,12 @@
 //! One sub-step of a grid: every active tile, the interior and the border layer with their own inner loops.
 
+use std::ops::Range;
+
 use crate::border::Axis;
 use crate::cpu::kernels::{Coefficients, LayerRow, interior_row, layer_row, rim_phi};
-use crate::cpu::tiles::{Mode, Tiles};
+use crate::cpu::mixed::{GroundRow, lesser, mixed_layer_row, mixed_row};
+use crate::cpu::tiles::{Class, Mode, Tiles};
+use crate::ground::Cells;
 use crate::state::State;
 
 /// Active tiles below this are stepped on one thread: waking others costs more than it saves.
@@ -20,6 +24,8 @@ struct Shared<'a> {
     axes: [&'a Axis; 2],
     tiles: &'a Tiles,
     coefficients: Coefficients,
+    /// The medium where it varies.
+    cells: Option<&'a Cells>,
 }
 
 /// Rows `first..` of what is written.
@@ -41,8 +47,18 @@ impl<'a> Band<'a> {
     }
 }
 
+/// What a sub-step takes besides the state.
+pub(crate) struct Setting<'a> {
+    pub(crate) tiles: &'a Tiles,
+    pub(crate) axes: &'a [Axis; 2],
+    pub(crate) thickness: usize,
+    pub(crate) coefficients: Coefficients,
+    pub(crate) cells: Option<&'a Cells>,
+}
+
 /// Advances the state by one sub-step.
-pub(crate) fn step(state: &mut State, tiles: &Tiles, axes: &[Axis; 2], thickness: usize, k: Coefficients) {
+pub(crate) fn step(state: &mut State, setting: &Setting) {
+    let &Setting { tiles, axes, thickness, coefficients, cells } = setting;
     let State { nx, nz, z, old, phi, phi_next: [next_x, next_z], .. } = state;
     let shared = Shared {
         nx: *nx,
@@ -52,7 +68,8 @@ pub(crate) fn step(state: &mut State, tiles: &Tiles, axes: &[Axis; 2], thickness
         phi: [&phi[0], &phi[1]],
         axes: [&axes[0], &axes[1]],
         tiles,
-        coefficients: k,
+        coefficients,
+        cells,
     };
     let band = Band { first: 0, old, phi_x: next_x, phi_z: next_z };
     let grain = if tiles.active >= PARALLEL_TILES { GRAIN } else { usize::MAX };
@@ -62,7 +79,7 @@ pub(crate) fn step(state: &mut State, tiles: &Tiles, axes: &[Axis; 2], thickness
 }
 
 /// Halves the rows of tiles over rayon's threads. Rows do not depend on each other, so neither do the bits.
-fn walk(band: Band, rows: std::ops::Range<usize>, grain: usize, shared: &Shared) {
+fn walk(band: Band, rows: Range<usize>, grain: usize, shared: &Shared) {
     if rows.len() > grain {
         let middle = rows.start + rows.len() / 2;
         let (low, high) = band.split(shared.tiles.span(1, middle).start, shared.nx);
@@ -74,23 +91,27 @@ fn walk(band: Band, rows: std::ops::Range<usize>, grain: usize, shared: &Shared)
         let tiles = shared.tiles.row(tz);
         let mut tx = 0;
         while tx < tiles.len() {
-            let run = tiles[tx..].iter().take_while(|t| t.mode == Mode::Active).count();
+            let class = tiles[tx].class;
+            let run = tiles[tx..].iter().take_while(|t| t.mode == Mode::Active && t.class == class).count();
             if run > 0 {
+                let ground = shared.cells.filter(|_| class != Class::Plain);
                 let cells = shared.tiles.span(0, tx).start..shared.tiles.span(0, tx + run - 1).end;
                 for j in shared.tiles.span(1, tz) {
                     let at = (j - first) * shared.nx;
                     let row = at..at + shared.nx;
                     let (old, phi_x, phi_z) = (&mut old[row.clone()], &mut phi_x[row.clone()], &mut phi_z[row]);
-                    step_run(j, cells.clone(), old, phi_x, phi_z, shared);
+                    let band = Band { first: j, old, phi_x, phi_z };
+                    step_run(cells.clone(), band, ground, shared);
                 }
             }
-            tx += run + 1;
+            tx += run.max(1);
         }
     }
 }
 
-/// Steps cells `run` of row `j`; the other arguments are that whole row.
-fn step_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], s: &Shared) {
+/// Steps cells `run` of the band's one row.
+fn step_run(run: Range<usize>, band: Band, ground: Option<&Cells>, s: &Shared) {
+    let Band { first: j, old, phi_x, phi_z } = band;
     let (nx, nz, w) = (s.nx, s.nz, s.thickness);
     if j == 0 || run.is_empty() {
         return;
@@ -102,13 +123,15 @@ fn step_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut 
         for (i, phi) in phi_z.iter_mut().enumerate().take(end).skip(start) {
             let at = (j - 1) * nx + i;
             let before = [s.z[at - 1], s.z[at], s.z[at + 1]];
-            *phi = rim_phi(s.phi[1][j * nx + i], before, edge, s.axes[0].node[i], s.coefficients);
+            let weights = rim_weights(1, j * nx + i, 1, ground, s);
+            *phi = rim_phi(s.phi[1][j * nx + i], before, edge, s.axes[0].node[i], weights);
         }
         return;
     }
     let mut layer = |from: usize, to: usize, old: &mut [f32]| {
         if from < to {
-            layer_run(j, from..to, old, phi_x, phi_z, s);
+            let row = Band { first: j, old, phi_x: &mut *phi_x, phi_z: &mut *phi_z };
+            layer_run(from..to, row, ground, s);
         }
     };
     if j <= w || j >= nz - 1 - w {
@@ -122,7 +145,11 @@ fn step_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut 
         let (from, to) = (start.max(left), end.min(right));
         if from < to {
             let around = |row: usize| &s.z[row * nx + from - 1..row * nx + to + 1];
-            interior_row(&mut old[from..to], around(j - 1), around(j), around(j + 1), s.coefficients);
+            let (old, rows) = (&mut old[from..to], [around(j - 1), around(j), around(j + 1)]);
+            match ground {
+                Some(cells) => mixed_row(old, rows, &ground_row(cells, j, from..to)),
+                None => interior_row(old, rows[0], rows[1], rows[2], s.coefficients),
+            }
         }
     }
     if run.end == nx {
@@ -130,11 +157,39 @@ fn step_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut 
         let (i, at) = (nx - 1, j * nx + nx - 2);
         let before = [s.z[at - nx], s.z[at], s.z[at + nx]];
         let edge = [x.edge[i], x.gain[i], x.keep[i]];
-        phi_x[i] = rim_phi(s.phi[0][j * nx + i], before, edge, s.axes[1].node[j], s.coefficients);
+        let weights = rim_weights(0, j * nx + i, nx, ground, s);
+        phi_x[i] = rim_phi(s.phi[0][j * nx + i], before, edge, s.axes[1].node[j], weights);
     }
 }
 
-fn layer_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], s: &Shared) {
+/// Weights of the jumps across face `at` of an axis and across the two beside it, `step` cells away.
+fn rim_weights(axis: usize, at: usize, step: usize, ground: Option<&Cells>, s: &Shared) -> [f32; 3] {
+    let k = s.coefficients;
+    let Some(cells) = ground else { return [k.beside, k.straight, k.beside] };
+    let faces = &cells.faces[axis];
+    let here = faces[at];
+    let beside = |at: usize| cells.weights[1] * lesser(here, faces[at]);
+    [beside(at - step), cells.own[axis][at], beside(at + step)]
+}
+
+fn ground_row(cells: &Cells, j: usize, run: Range<usize>) -> GroundRow<'_> {
+    let nx = cells.nx;
+    let [x, z] = &cells.faces;
+    let row = |j: usize| j * nx + run.start..j * nx + run.end;
+    let along = |j: usize| &x[j * nx + run.start..j * nx + run.end + 1];
+    let across = |j: usize| &z[j * nx + run.start - 1..j * nx + run.end + 1];
+    GroundRow {
+        faces_x: [along(j - 1), along(j), along(j + 1)],
+        faces_z: [across(j), across(j + 1)],
+        own_x: &cells.own[0][j * nx + run.start..j * nx + run.end + 1],
+        own_z: [&cells.own[1][row(j)], &cells.own[1][row(j + 1)]],
+        r: &cells.r[row(j)],
+        beside: cells.weights[1],
+    }
+}
+
+fn layer_run(run: Range<usize>, band: Band, ground: Option<&Cells>, s: &Shared) {
+    let Band { first: j, old, phi_x, phi_z } = band;
     let nx = s.nx;
     let (from, to) = (run.start, run.end);
     let around = |row: usize| &s.z[row * nx + from - 1..row * nx + to + 1];
@@ -153,5 +208,9 @@ fn layer_run(j: usize, run: std::ops::Range<usize>, old: &mut [f32], phi_x: &mut
         node_z: [z.node[j], z.node_gain[j]],
         edge_z: [[z.edge[j], z.gain[j], z.keep[j]], [z.edge[j + 1], z.gain[j + 1], z.keep[j + 1]]],
     };
-    layer_row(&mut old[from..to], &mut phi_x[from..to], &mut phi_z[from..to], &row, s.coefficients);
+    let (old, phi_x, phi_z) = (&mut old[from..to], &mut phi_x[from..to], &mut phi_z[from..to]);
+    match ground {
+        Some(cells) => mixed_layer_row(old, phi_x, phi_z, &row, &ground_row(cells, j, run)),
+        None => layer_row(old, phi_x, phi_z, &row, s.coefficients),
+    }
 }

@@ -23,6 +23,18 @@ pub(crate) enum Mode {
     Ending,
 }
 
+/// What the medium makes of a tile.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) enum Class {
+    /// Open deep water, with the ring of cells around it.
+    #[default]
+    Plain,
+    /// Anything else.
+    Mixed,
+    /// Wall that no water is near: never stepped.
+    Solid,
+}
+
 /// One tile.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Tile {
@@ -31,6 +43,7 @@ pub(crate) struct Tile {
     /// Bound of the foam.
     pub(crate) foam: f32,
     pub(crate) mode: Mode,
+    pub(crate) class: Class,
 }
 
 impl Tile {
@@ -43,7 +56,7 @@ impl Tile {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tiles {
     /// Cells of the window.
-    cells: [usize; 2],
+    pub(crate) cells: [usize; 2],
     /// Cells of the first tile that lie before the window.
     pub(crate) offset: [usize; 2],
     /// Tiles per axis, for any offset.
@@ -100,6 +113,7 @@ impl Tiles {
                     row[tx.saturating_sub(1)..(tx + 2).min(nx)].iter().any(Tile::busy)
                 });
                 let mut tile = self.tiles[tz * nx + tx];
+                let wanted = wanted && tile.class != Class::Solid;
                 tile.mode = match (wanted, tile.mode) {
                     (true, _) => Mode::Active,
                     (false, Mode::Active) => Mode::Ending,
@@ -112,12 +126,21 @@ impl Tiles {
         std::mem::swap(&mut self.tiles, &mut self.scratch);
     }
 
-    /// Has every tile stepped.
+    /// Has every tile stepped that holds water.
     pub(crate) fn activate_all(&mut self) {
-        self.active = self.tiles.len();
+        self.active = 0;
         for tile in &mut self.tiles {
-            tile.mode = Mode::Active;
+            tile.mode = match tile.class {
+                Class::Solid => Mode::Quiet,
+                Class::Plain | Class::Mixed => Mode::Active,
+            };
+            self.active += usize::from(tile.mode == Mode::Active);
         }
+    }
+
+    /// Whether the medium is nowhere felt.
+    pub(crate) fn all_plain(&self) -> bool {
+        self.tiles.iter().all(|tile| tile.class == Class::Plain)
     }
 
     /// Whether nothing needs stepping.
@@ -125,8 +148,8 @@ impl Tiles {
         !self.tiles.iter().any(Tile::busy)
     }
 
-    /// Moves to where a shifted window stands. Tiles keep their world place.
-    pub(crate) fn shift(&mut self, shift: [i64; 2]) {
+    /// Moves to where a shifted window stands. Tiles keep their world place. Returns by how many tiles.
+    pub(crate) fn shift(&mut self, shift: [i64; 2]) -> [i64; 2] {
         let tile = TILE as i64;
         let mut moved = [0i64; 2];
         for k in 0..2 {
@@ -135,7 +158,7 @@ impl Tiles {
             self.offset[k] = at.rem_euclid(tile) as usize;
         }
         if moved == [0; 2] {
-            return;
+            return moved;
         }
         let [nx, nz] = self.count.map(|n| n as i64);
         for tz in 0..nz {
@@ -147,12 +170,15 @@ impl Tiles {
             }
         }
         std::mem::swap(&mut self.tiles, &mut self.scratch);
+        moved
     }
 
-    /// Forgets everything.
+    /// Forgets all waves, and takes another place.
     pub(crate) fn clear(&mut self, offset: [usize; 2]) {
         self.offset = offset;
         self.active = 0;
-        self.tiles.fill(Tile::default());
+        for tile in &mut self.tiles {
+            *tile = Tile { class: tile.class, ..Tile::default() };
+        }
     }
 }

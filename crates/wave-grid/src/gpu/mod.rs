@@ -174,7 +174,7 @@ impl GpuGrids {
         let origin = self.origin;
         let grid = &mut self.grids[id.0];
         let rim = grid.desc.pml_width as usize + 2;
-        let Some(footprint) = Footprint::new(source, &grid.place.window, origin, rim) else {
+        let Some(footprint) = Footprint::new(source, &grid.place.window, origin, rim, None) else {
             grid.dropped += 1;
             return false;
         };

@@ -1,0 +1,72 @@
+//! What can be asked of a grid and set on it besides stepping.
+
+use crate::source::HEIGHT_LIMIT;
+use crate::{GridDesc, GridError, Stepping, WaveGrid, Window, cpu};
+
+impl WaveGrid {
+    /// Where the window stands: world corner in cells, extent, cell size.
+    pub fn window(&self) -> Window {
+        self.place.window
+    }
+
+    /// The description it was made from.
+    pub fn desc(&self) -> &GridDesc {
+        &self.desc
+    }
+
+    /// Sub-steps, their length and the Courant number.
+    pub fn stepping(&self) -> Stepping {
+        self.stepping
+    }
+
+    /// Heights of all cells without fade, metres, row-major, x fastest.
+    pub fn heights(&self) -> &[f32] {
+        &self.state.z
+    }
+
+    /// Sets the heights now and one sub-step ago (cells as [`Self::heights`]), still foam, no memory in the border.
+    /// Values that are not finite count as zero, others are kept within [`HEIGHT_LIMIT`]; the outermost ring is zero,
+    /// and so is what a medium makes no open water.
+    ///
+    /// # Errors
+    /// [`GridError::InvalidValue`] when a slice has not one value per cell.
+    pub fn impose(&mut self, now: &[f32], before: &[f32]) -> Result<(), GridError> {
+        for (field, given) in [("now", now), ("before", before)] {
+            if given.len() != self.state.z.len() {
+                let bound = "one value per cell";
+                return Err(GridError::InvalidValue { field, value: given.len() as f64, bound });
+            }
+        }
+        self.state.clear();
+        let (nx, nz) = (self.state.nx, self.state.nz);
+        for (array, given) in [(&mut self.state.z, now), (&mut self.state.old, before)] {
+            for j in 1..nz - 1 {
+                let row = j * nx + 1..(j + 1) * nx - 1;
+                for (z, v) in array[row.clone()].iter_mut().zip(&given[row]) {
+                    *z = if v.is_finite() { v.clamp(-HEIGHT_LIMIT, HEIGHT_LIMIT) } else { 0.0 };
+                }
+            }
+        }
+        self.dry_walls();
+        self.captured = false;
+        self.capture();
+        self.tiles.activate_all();
+        cpu::foam::measure(&self.state, &mut self.tiles);
+        Ok(())
+    }
+
+    /// Sources dropped so far, see [`Self::add`].
+    pub fn dropped_sources(&self) -> u64 {
+        self.dropped
+    }
+
+    /// Whether nothing moves: ticks cost nothing and there is nothing to draw.
+    pub fn is_asleep(&self) -> bool {
+        self.tiles.asleep()
+    }
+
+    /// Tiles stepped in the last tick.
+    pub fn active_tiles(&self) -> usize {
+        self.tiles.active
+    }
+}

@@ -1,0 +1,111 @@
+//! What the water of a grid lies in: wave speed, damping and walls, given by the host as a function of the place.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::{GridDesc, Stepping};
+
+/// What a cell is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CellKind {
+    /// Water.
+    #[default]
+    Open,
+    /// A reflecting wall: nothing flows through its faces.
+    Wall,
+    /// Water held at height zero, which reflects with the opposite sign.
+    Fixed,
+}
+
+/// The medium of one cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MediumCell {
+    /// Wave speed, m/s. At most the grid's [`GridDesc::wave_speed`], more counts as that; an open cell whose speed is
+    /// not above zero is a wall.
+    pub speed: f32,
+    /// Damping sigma, 1/s, added to the grid's own: 0 to 10^6, anything else counts as the nearer of the two.
+    pub damping: f32,
+    /// Water or wall.
+    pub kind: CellKind,
+}
+
+/// The medium of the whole world. Cells read it at their centres as they enter a window.
+pub trait Medium: Send + Sync {
+    /// The medium at a world place (x, z), for a grid whose speed in deep water is `deep_speed`.
+    fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell;
+
+    /// Whether all water between two world corners is open, undamped and as fast as in deep water. Where it is, nothing
+    /// is stored and the step costs what it does without a medium. `false` is always allowed.
+    fn is_plain(&self, low: DVec2, high: DVec2, deep_speed: f32) -> bool;
+}
+
+/// A shared medium.
+#[derive(Clone)]
+pub(crate) struct SharedMedium(pub(crate) Arc<dyn Medium>);
+
+impl std::fmt::Debug for SharedMedium {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Medium")
+    }
+}
+
+/// Turns what a medium says into coefficients of a grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CellLaw {
+    pub(crate) deep_speed: f32,
+    pub(crate) cell_size: f64,
+    /// `(c dt / h)^2` in deep water.
+    a: f32,
+    half_dt: f32,
+    damping: f32,
+    /// Of a face's own jump and of the two beside it.
+    pub(crate) weights: [f32; 2],
+}
+
+/// Coefficients of a cell: a = (c dt / h)^2, at most 0 for walls; r = 1 / (1 + sigma dt / 2), 0 for what is not water.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Coefficient {
+    pub(crate) a: f32,
+    pub(crate) r: f32,
+}
+
+/// `a` of a wall that no water is within two cells of.
+pub(crate) const DEEP_WALL: f32 = -1.0;
+/// `a` of a wall beside water.
+pub(crate) const NEAR_WALL: f32 = 0.0;
+
+impl CellLaw {
+    pub(crate) fn new(desc: &GridDesc, stepping: &Stepping) -> Self {
+        let (straight, beside) = desc.scheme.weights();
+        Self {
+            weights: [straight as f32, beside as f32],
+            deep_speed: desc.wave_speed,
+            cell_size: f64::from(desc.cell_size),
+            a: stepping.a as f32,
+            half_dt: (0.5 * stepping.dt) as f32,
+            damping: desc.damping,
+        }
+    }
+
+    /// Of open deep water.
+    pub(crate) fn plain(&self) -> Coefficient {
+        Coefficient { a: self.a, r: 1.0 / (1.0 + self.half_dt * self.damping) }
+    }
+
+    /// Of a world cell.
+    pub(crate) fn cell(&self, medium: &dyn Medium, cell: [i64; 2]) -> Coefficient {
+        let place = DVec2::new(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5) * self.cell_size;
+        let MediumCell { speed, damping, kind } = medium.at(place, self.deep_speed);
+        let ratio = if speed < self.deep_speed { speed / self.deep_speed } else { 1.0 };
+        let a = self.a * ratio * ratio;
+        // Also a speed that is NaN, negative or so low that nothing is left of `a`.
+        let wet = speed > 0.0 && a > 1e-12;
+        let damping = if damping > 0.0 { damping.min(1e6) } else { 0.0 };
+        match kind {
+            CellKind::Open if wet => Coefficient { a, r: 1.0 / (1.0 + self.half_dt * (self.damping + damping)) },
+            CellKind::Fixed => Coefficient { a: if wet { a } else { self.a }, r: 0.0 },
+            _ => Coefficient { a: DEEP_WALL, r: 0.0 },
+        }
+    }
+}

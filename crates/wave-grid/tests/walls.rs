@@ -1,0 +1,99 @@
+//! Walls and held water against a mirrored domain, which knows of neither.
+
+use std::sync::Arc;
+
+use glam::{DVec2, Vec2};
+use wave_grid::{CellKind, GridDesc, GridSample, Medium, MediumCell, Scheme, Source, WaveGrid};
+
+/// Everything beyond a line along z is of one kind.
+struct Quay {
+    /// World x of the first cell face of the wall.
+    x: f64,
+    kind: CellKind,
+}
+
+impl Medium for Quay {
+    fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
+        let kind = if place.x > self.x { self.kind } else { CellKind::Open };
+        MediumCell { speed: deep_speed, damping: 0.0, kind }
+    }
+
+    fn is_plain(&self, _low: DVec2, high: DVec2, _deep_speed: f32) -> bool {
+        high.x <= self.x
+    }
+}
+
+fn desc(scheme: Scheme) -> GridDesc {
+    GridDesc { cells: [160, 96], cell_size: 0.5, wave_speed: 24.0, scheme, ..Default::default() }
+}
+
+fn stone(x: f32, z: f32, radius: f32, volume: f32) -> Source {
+    Source::Displacement { center: Vec2::new(x, z), radius, volume }
+}
+
+/// Largest difference between a grid with a medium beyond x = `wall` (cells from the middle) and one with a second
+/// source mirrored at x = `mirror`, times `sign`; and the largest height.
+fn mirrored(scheme: Scheme, kind: CellKind, wall: f64, mirror: f32, sign: f32) -> (f32, f32) {
+    let mut half = WaveGrid::new(desc(scheme)).unwrap();
+    half.set_medium(Some(Arc::new(Quay { x: 0.5 * wall, kind })));
+    let mut whole = WaveGrid::new(desc(scheme)).unwrap();
+    let (mut worst, mut most) = (0.0f32, 0.0f32);
+    for t in 0..400 {
+        let volume = 2.0 * (t as f32 * 0.3).sin();
+        if t < 60 {
+            for (x, z) in [(-9.0, 0.3), (-6.25, -8.0)] {
+                assert!(half.add(stone(x, z, 1.5, volume)));
+                assert!(whole.add(stone(x, z, 1.5, volume)));
+                assert!(whole.add(stone(2.0 * mirror - x, z, 1.5, sign * volume)));
+            }
+        }
+        half.tick();
+        whole.tick();
+        let open = (80.0 + wall) as usize;
+        for j in 0..96 {
+            for at in j * 160..j * 160 + open {
+                worst = worst.max((half.heights()[at] - whole.heights()[at]).abs());
+                most = most.max(whole.heights()[at].abs());
+            }
+        }
+    }
+    (worst, most)
+}
+
+#[test]
+fn a_wall_is_a_mirror_also_through_the_border() {
+    for scheme in [Scheme::NinePoint, Scheme::FivePoint] {
+        let (worst, most) = mirrored(scheme, CellKind::Wall, 0.0, 0.0, 1.0);
+        println!("{scheme:?}: {worst:e} of {most}");
+        assert!(worst < 3e-5 * most, "{scheme:?}: {worst} of {most}");
+    }
+}
+
+#[test]
+fn held_water_is_a_mirror_with_the_opposite_sign() {
+    for scheme in [Scheme::NinePoint, Scheme::FivePoint] {
+        // The first held cell's centre is where the height is zero.
+        let (worst, most) = mirrored(scheme, CellKind::Fixed, 0.0, 0.25, -1.0);
+        println!("{scheme:?}: {worst:e} of {most}");
+        assert!(worst < 3e-5 * most, "{scheme:?}: {worst} of {most}");
+    }
+}
+
+#[test]
+fn water_is_drawn_evenly_up_to_a_wall() {
+    let mut half = WaveGrid::new(desc(Scheme::NinePoint)).unwrap();
+    half.set_medium(Some(Arc::new(Quay { x: 0.0, kind: CellKind::Wall })));
+    for t in 0..60 {
+        half.add(stone(-9.0, 0.0, 3.0, 2.0 * (t as f32 * 0.1).sin()));
+        half.tick();
+    }
+    let mut at = [GridSample::default(); 2];
+    half.sample(&[Vec2::new(-1e-3, 1.0), Vec2::new(-0.5, 1.0)], &mut at);
+    assert!(at[0].height.abs() > 0.02, "{at:?}");
+    assert!(at[0].slope.x.abs() < 0.2 * at[1].slope.x.abs().max(0.01), "no slope across the wall: {at:?}");
+    let mut drawn = vec![[0.0; 2]; 160 * 96];
+    half.draw(1.0, &mut drawn);
+    let row = &drawn[50 * 160..51 * 160];
+    assert!((row[80][0] - row[79][0]).abs() < 1e-3 * row[79][0].abs(), "{:?}", &row[78..82]);
+    assert!(row[82..].iter().all(|d| *d == [0.0; 2]));
+}
