@@ -45,7 +45,7 @@ pub use desc::{BodyDesc, ForcePoints, Inertia, Radiation, Sampling};
 pub use drag::Drag;
 pub use engine::{Controls, Engine};
 pub use error::BodyError;
-pub use hull::{Closure, Hull, TriMesh, Waterline};
+pub use hull::{Closure, Hull, HullKind, TriMesh, Waterline};
 pub use mooring::MooringLine;
 pub use point::{ForcePoint, PointShape};
 pub use source::Displacement;

@@ -37,6 +37,14 @@ impl Pose {
     fn of(body: &Body) -> Self {
         Self::at(body, &body.state())
     }
+
+    /// The pose a share `alpha` on the way to another.
+    pub(crate) fn between(&self, next: &Self, alpha: f32) -> Self {
+        Self {
+            position: self.position.lerp(next.position, alpha),
+            orientation: self.orientation.slerp(next.orientation, alpha),
+        }
+    }
 }
 
 pub(crate) struct Entry {
@@ -108,7 +116,7 @@ impl Bodies {
         Ok(self.list[at].body.set_moorings(lines)?)
     }
 
-    /// Where the body was drawn at the start of the last tick, if it took part in it.
+    /// Pose at the start of the last tick, if it took part in it.
     #[cfg(feature = "rapier")]
     pub(crate) fn previous(&self, id: BodyId) -> Option<Pose> {
         self.get(id).filter(|entry| entry.active)?.previous
@@ -126,10 +134,7 @@ impl Bodies {
         let entry = self.get(id).filter(|entry| entry.active)?;
         let now = Pose::of(&entry.body);
         let before = entry.previous.unwrap_or(now);
-        Some(Pose {
-            position: before.position.lerp(now.position, alpha),
-            orientation: before.orientation.slerp(now.orientation, alpha),
-        })
+        Some(before.between(&now, alpha))
     }
 
     /// Takes over the store's states. Returns whether any body takes part in the tick.

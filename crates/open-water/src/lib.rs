@@ -41,6 +41,8 @@ mod grids;
 mod moorings;
 mod plan;
 mod planner;
+#[cfg(feature = "rapier")]
+pub mod rapier;
 mod store;
 mod water;
 
@@ -56,7 +58,7 @@ pub use store::{BodyId, BodyMotion, BodyStates, BodyStore, GridId, MooringId, Wa
 pub use water::{OpenWater, Reports};
 
 pub use floating_body::{
-    Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, Inertia, MooringLine, Radiation, TriMesh, Wrench,
+    Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, HullKind, Inertia, MooringLine, Radiation, TriMesh, Wrench,
 };
 pub use ocean_spectrum::{CascadeDesc, Ocean, Partition, SeaState, Spectrum, Spreading};
 pub use wave_grid::{Scheme, WaveGrid};

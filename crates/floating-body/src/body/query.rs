@@ -1,6 +1,6 @@
 //! What can be asked of a body: its pose to draw, its floatation, what it was made from.
 
-use glam::{Quat, Vec2, Vec3};
+use glam::{Mat3, Quat, Vec2, Vec3};
 
 use super::Body;
 use crate::hull::Waterline;
@@ -23,6 +23,11 @@ impl Body {
     /// The description it was made from.
     pub fn desc(&self) -> &BodyDesc {
         &self.desc
+    }
+
+    /// Inertia tensor about the centre of mass with which it turns, without what the water adds, hull axes, kg m^2.
+    pub fn inertia(&self) -> Mat3 {
+        self.inertia
     }
 
     /// The force points, relative to the centre of mass, hull axes.

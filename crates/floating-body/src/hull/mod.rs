@@ -48,17 +48,46 @@ impl TriMesh {
     }
 }
 
+/// What a hull is made of, for building something else of the same shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum HullKind<'a> {
+    /// A box about its centre.
+    Cuboid {
+        /// Half its sides in m.
+        half: Vec3,
+    },
+    /// A ball.
+    Sphere {
+        /// In m.
+        radius: f32,
+    },
+    /// A cylinder along x, hollow or not.
+    Cylinder {
+        /// In m.
+        radius: f32,
+        /// In m.
+        length: f32,
+    },
+    /// A closed mesh.
+    Mesh(&'a TriMesh),
+}
+
 /// A shape that displaces water.
 #[derive(Clone, Debug)]
 pub struct Hull(Arc<Inner>);
 
 #[derive(Debug)]
 struct Inner {
-    /// `None` for a mesh.
-    shape: Option<Shape>,
+    made: Made,
     solid: Solid,
     spans: Vec<Span>,
-    mesh: Option<TriMesh>,
+}
+
+#[derive(Debug)]
+enum Made {
+    Shape(Shape),
+    Mesh(TriMesh),
 }
 
 /// Bounds of the lengths of closed shapes, in m.
@@ -80,7 +109,7 @@ impl Hull {
             vertices: surface.vertices.iter().map(|v| v.as_vec3()).collect(),
             indices: surface.triangles.iter().flatten().copied().collect(),
         };
-        Ok(Self(Arc::new(Inner { shape: None, solid, spans, mesh: Some(mesh) })))
+        Ok(Self(Arc::new(Inner { made: Made::Mesh(mesh), solid, spans })))
     }
 
     /// A box of `size` m (length x, height y, width z) about its centre.
@@ -137,7 +166,7 @@ impl Hull {
     fn closed(shape: Shape) -> Self {
         let solid = shape.solid();
         let spans = shape.spans(&solid);
-        Self(Arc::new(Inner { shape: Some(shape), solid, spans, mesh: None }))
+        Self(Arc::new(Inner { made: Made::Shape(shape), solid, spans }))
     }
 
     /// Whole volume in m^3.
@@ -162,7 +191,22 @@ impl Hull {
 
     /// The welded, closed, outward mesh; `None` for closed shapes.
     pub fn mesh(&self) -> Option<&TriMesh> {
-        self.0.mesh.as_ref()
+        match &self.0.made {
+            Made::Mesh(mesh) => Some(mesh),
+            Made::Shape(_) => None,
+        }
+    }
+
+    /// What the hull is made of.
+    pub fn kind(&self) -> HullKind<'_> {
+        match &self.0.made {
+            Made::Mesh(mesh) => HullKind::Mesh(mesh),
+            Made::Shape(Shape::Cuboid { half }) => HullKind::Cuboid { half: half.as_vec3() },
+            Made::Shape(Shape::Sphere { radius }) => HullKind::Sphere { radius: *radius as f32 },
+            Made::Shape(Shape::Cylinder { radius, length } | Shape::HollowCylinder { length, radius, .. }) => {
+                HullKind::Cylinder { radius: *radius as f32, length: *length as f32 }
+            }
+        }
     }
 
     /// Where the hull floats upright when it displaces `volume` m^3; wholly immersed if it cannot.
@@ -174,31 +218,31 @@ impl Hull {
     /// shapes (always one for a sphere). Their volumes sum to the hull's.
     pub fn force_points(&self, count: u32, volume: f32) -> Vec<ForcePoint> {
         let Solid { low, high, .. } = self.0.solid;
-        match self.0.shape {
-            None => columns::columns(&self.0.spans, low, high, count, f64::from(volume)),
-            Some(shape) => shape.points(count),
+        match &self.0.made {
+            Made::Mesh(_) => columns::columns(&self.0.spans, low, high, count, f64::from(volume)),
+            Made::Shape(shape) => shape.points(count),
         }
     }
 
     /// Number of force points when none is asked for: as few as keep the draft within 1 %.
     pub(crate) fn default_count(&self) -> u32 {
         let size: DVec3 = self.0.solid.high - self.0.solid.low;
-        match self.0.shape {
-            Some(Shape::Sphere { .. }) => 1,
-            Some(Shape::Cylinder { .. }) => 4,
-            Some(Shape::Cuboid { .. }) if size.max_element() < f64::from(crate::desc::PATCH_LENGTH) => 8,
-            Some(Shape::Cuboid { .. }) | None => 32,
-            Some(Shape::HollowCylinder { .. }) => 12,
+        match &self.0.made {
+            Made::Shape(Shape::Sphere { .. }) => 1,
+            Made::Shape(Shape::Cylinder { .. }) => 4,
+            Made::Shape(Shape::Cuboid { .. }) if size.max_element() < f64::from(crate::desc::PATCH_LENGTH) => 8,
+            Made::Shape(Shape::Cuboid { .. }) | Made::Mesh(_) => 32,
+            Made::Shape(Shape::HollowCylinder { .. }) => 12,
         }
     }
 
     /// Whether the hull is blunt at its ends (closed shapes) rather than drawn to a bow (meshes).
     pub(crate) fn is_blunt(&self) -> bool {
-        self.0.shape.is_some()
+        matches!(self.0.made, Made::Shape(_))
     }
 
     /// Whether the hull is a ball.
     pub(crate) fn is_sphere(&self) -> bool {
-        matches!(self.0.shape, Some(Shape::Sphere { .. }))
+        matches!(self.0.made, Made::Shape(Shape::Sphere { .. }))
     }
 }
