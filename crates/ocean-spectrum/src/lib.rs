@@ -30,6 +30,7 @@
 //!
 //! Not here: interactive waves, bodies, shores (the depth is one number), wave breaking, surface tension.
 
+mod amplitude;
 pub mod dispersion;
 mod error;
 mod fft;
@@ -38,6 +39,7 @@ mod file;
 pub mod gpu;
 mod held;
 mod kernel;
+mod layers;
 mod modes;
 mod ocean;
 mod pack;
@@ -48,16 +50,19 @@ mod random;
 pub mod reference;
 mod sea;
 mod shape;
+mod shoal;
 mod spectrum;
 mod synthesis;
 mod table;
 
+pub use amplitude::{AmplitudeMap, CascadeFactors};
 pub use error::{Notice, OceanError};
 pub use modes::CascadeModes;
 pub use ocean::{CascadeDesc, CascadeFields, Ocean, OceanDesc};
 pub use patch::OceanPatch;
 pub use query::OceanSample;
 pub use sea::{Partition, SeaState, Spectrum, Spreading, TableRow};
+pub use shoal::{BREAKING_HEIGHT, depth_share};
 pub use spectrum::{SLOPE_CUTOFF, WaveSpectrum};
 
 /// Acceleration of gravity, m/s^2.

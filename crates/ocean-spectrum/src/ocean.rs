@@ -1,13 +1,16 @@
 //! The sea: description, modes, and the surface at one time.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 
+use crate::amplitude::{AmplitudeMap, Placed};
 use crate::error::check;
+use crate::layers::{Layer, Layers};
 use crate::modes::{self, CascadeModes};
-use crate::query::Layer;
+use crate::shoal::Frequencies;
 use crate::spectrum::WaveSpectrum;
 use crate::synthesis::Synthesis;
 use crate::{Notice, OceanError, SeaState, dispersion};
@@ -93,6 +96,9 @@ pub struct Ocean {
     pub(crate) spectrum: WaveSpectrum,
     pub(crate) modes: Vec<CascadeModes>,
     pub(crate) layers: Vec<Layer>,
+    pub(crate) frequencies: Vec<Frequencies>,
+    map: Option<Placed>,
+    origin: DVec2,
     notices: Vec<Notice>,
     phase: u32,
     variance: f64,
@@ -118,7 +124,19 @@ impl Ocean {
             notices.push(Notice::VarianceLost { share });
         }
         let layers = modes.iter().map(|modes| Layer::new(modes, Synthesis::new(modes, &desc))).collect();
-        let mut ocean = Self { desc, spectrum, modes, layers, notices, phase: 0, variance };
+        let frequencies = modes.iter().map(|modes| Frequencies::of(modes, desc.loop_time)).collect();
+        let mut ocean = Self {
+            desc,
+            spectrum,
+            modes,
+            layers,
+            frequencies,
+            map: None,
+            origin: DVec2::ZERO,
+            notices,
+            phase: 0,
+            variance,
+        };
         ocean.synthesise();
         Ok(ocean)
     }
@@ -187,6 +205,23 @@ impl Ocean {
             let tile = f64::from(modes.tile);
             layer.offset = DVec2::new(origin.x.rem_euclid(tile), origin.y.rem_euclid(tile)).as_vec2();
         }
+        self.origin = origin;
+        self.set_amplitudes(self.amplitudes().cloned());
+    }
+
+    /// Scales the waves over the world from now on, in every query; `None` leaves them as they are everywhere. The
+    /// arrays ([`Self::fields`]) stay whole.
+    pub fn set_amplitudes(&mut self, map: Option<Arc<AmplitudeMap>>) {
+        self.map = map.map(|map| Placed::new(map, self.origin));
+    }
+
+    /// The map that scales the waves.
+    pub fn amplitudes(&self) -> Option<&Arc<AmplitudeMap>> {
+        self.map.as_ref().map(|placed| &placed.map)
+    }
+
+    pub(crate) fn layers(&self) -> Layers<'_> {
+        Layers { layers: &self.layers, map: self.map.as_ref() }
     }
 
     /// The local origin within the tile of cascade `c`, metres: add it to a local position to get one in the arrays.

@@ -2,8 +2,9 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::query::{self, is_place, world_slope};
-use crate::{CascadeModes, Ocean};
+use crate::layers::State;
+use crate::query::is_place;
+use crate::{CascadeFactors, CascadeModes, Ocean};
 
 /// The sea around a point as a small body feels it: a plane with its motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -60,38 +61,29 @@ impl Ocean {
         if !is_place(center) {
             return OceanPatch { decay_wavenumber, ..Default::default() };
         }
-        let rest = query::find(&self.layers, center).rest;
-        let (mut p, mut d, mut v) = ([0.0; 4], [0.0; 4], [0.0; 4]);
-        for layer in &self.layers {
-            let share = layer.band.share(radius);
-            if share == 0.0 {
-                continue;
-            }
-            let taps = layer.taps(rest);
-            let add = |sum: &mut [f32; 4], texels| {
-                for (sum, value) in sum.iter_mut().zip(taps.read(texels)) {
-                    *sum += share * value;
-                }
-            };
-            add(&mut p, layer.fields.displacement());
-            add(&mut d, layer.fields.derivative());
-            add(&mut v, layer.fields.velocity());
-        }
+        let layers = self.layers();
+        let rest = layers.find(center).rest;
+        let State { displacement, gradient, velocity } = layers.state(rest, |c| self.layers[c].band.share(radius));
         OceanPatch {
-            height: p[1],
-            gradient: world_slope(d, p[3]),
-            velocity: Vec3::new(v[0], v[1], v[2]),
-            vertical_acceleration: v[3],
-            decay_wavenumber,
+            height: displacement[1],
+            gradient: gradient.world_slope(),
+            velocity: Vec3::new(velocity[0], velocity[1], velocity[2]),
+            vertical_acceleration: velocity[3],
+            decay_wavenumber: layers.map.map_or(decay_wavenumber, |map| self.decay(radius, map.values(rest))),
         }
     }
 
     /// Mean wavenumber, weighted by variance, of the waves that a body of the given radius (metres) feels, rad/m: the
-    /// pressure and motion of the sea fade about as e^(-k d) with depth d under it.
+    /// pressure and motion of the sea fade about as e^(-k d) with depth d under it. That of the open sea, where no map
+    /// weakens it.
     pub fn decay_wavenumber(&self, radius: f32) -> f32 {
+        self.decay(radius, [1.0; 8])
+    }
+
+    fn decay(&self, radius: f32, factors: CascadeFactors) -> f32 {
         let (mut sum, mut weighted) = (f32::MIN_POSITIVE, 0.0);
-        for band in self.layers.iter().map(|layer| layer.band) {
-            let share = band.share(radius);
+        for (band, factor) in self.layers.iter().map(|layer| layer.band).zip(factors) {
+            let share = band.share(radius) * factor;
             let weight = band.variance * share * share;
             sum += weight;
             weighted += weight * band.wavenumber;
