@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 use std::process::ExitCode;
 
 use glam::{Affine3A, Quat, Vec2, Vec3};
-use open_water::{BodyDesc, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, OpenWater, Tick};
+use open_water::{BodyDesc, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, OpenWater, Pose, Tick};
 use open_water_examples::{
     Dice, Flotsam, Helm, Launch, Mark, NoMore, Options, Scene, SceneError, Setup, Subject, boat_mesh, run,
 };
@@ -152,15 +152,18 @@ impl Scene for Boat {
             let world_from_mesh = Affine3A::from_rotation_translation(pose.orientation, pose.position);
             meshes.place(queue, mesh, &[Instance { world_from_mesh, tint: Vec3::ONE }]);
         }
-        self.flotsam.place(&self.water, queue, meshes);
+        let water = &self.water;
+        self.flotsam.place(|body| water.drawn_pose(body), queue, meshes);
     }
 
     fn dry(&self) -> [Option<DryHull>; 4] {
-        [self.boat.dry(&self.water), None, None, None]
+        [self.water.drawn_pose(self.boat.body).map(|pose| self.boat.dry(pose)), None, None, None]
     }
 
     fn subject(&self) -> Subject {
-        self.boat.subject(&self.water, self.state())
+        let state = self.state();
+        let start = Pose { position: state.position, orientation: state.orientation };
+        self.boat.subject(self.water.drawn_pose(self.boat.body).unwrap_or(start))
     }
 
     fn look_down(&mut self) {
@@ -173,8 +176,8 @@ impl Scene for Boat {
 
     fn marks(&self) -> Vec<Mark> {
         let mut marks = Vec::new();
-        self.flotsam.marks(&self.water, &mut marks);
-        marks.extend(self.boat.mark(&self.water));
+        self.flotsam.marks(|body| self.water.drawn_pose(body), &mut marks);
+        marks.extend(self.water.drawn_pose(self.boat.body).map(|pose| self.boat.mark(pose)));
         marks
     }
 

@@ -1,7 +1,7 @@
 //! Flotsam: crates and barrels that float about.
 
 use glam::{Affine3A, Quat, Vec2, Vec3};
-use open_water::{BodyDesc, BodyId, BodyState, Hull, OpenWater, OpenWaterError};
+use open_water::{BodyDesc, BodyId, BodyState, Hull, OpenWater, OpenWaterError, Pose};
 use water_view::{Instance, MeshId, MeshView};
 
 use crate::{Dice, Mark, SceneError, barrel, crate_box};
@@ -111,12 +111,12 @@ impl Flotsam {
         self.meshes.push(meshes.add(device, &barrel(BARREL.0, BARREL.1), room));
     }
 
-    /// Says where the pieces stand at the drawn moment.
-    pub fn place(&mut self, water: &OpenWater, queue: &wgpu::Queue, meshes: &mut MeshView) {
+    /// Draws the pieces where `pose` says that they stand.
+    pub fn place(&mut self, pose: impl Fn(BodyId) -> Option<Pose>, queue: &wgpu::Queue, meshes: &mut MeshView) {
         for (kind, mesh) in Kind::ALL.into_iter().zip(&self.meshes) {
             self.instances.clear();
             self.instances.extend(self.pieces.iter().filter(|piece| piece.kind == kind).filter_map(|piece| {
-                let pose = water.drawn_pose(piece.body)?;
+                let pose = pose(piece.body)?;
                 let world_from_mesh = Affine3A::from_rotation_translation(pose.orientation, pose.position);
                 Some(Instance { world_from_mesh, tint: piece.tint })
             }));
@@ -125,13 +125,13 @@ impl Flotsam {
     }
 
     /// The pieces as flat shapes.
-    pub fn marks(&self, water: &OpenWater, marks: &mut Vec<Mark>) {
+    pub fn marks(&self, pose: impl Fn(BodyId) -> Option<Pose>, marks: &mut Vec<Mark>) {
         marks.extend(self.pieces.iter().filter_map(|piece| {
             let (x, z) = (piece.kind.half().x, piece.kind.half().z);
             let wood = Vec3::new(150.0, 105.0, 60.0);
             let paint = if piece.kind == Kind::Barrel { 255.0 * piece.tint } else { wood * piece.tint };
             let color = paint.to_array().map(|c| c.min(255.0) as u8);
-            Mark::of(water, piece.body, &[(-x, -z), (x, -z), (x, z), (-x, z)], color)
+            Some(Mark::of(pose(piece.body)?, &[(-x, -z), (x, -z), (x, z), (-x, z)], color))
         }));
     }
 

@@ -1,7 +1,7 @@
 //! A boat with its wake, and the course that its autopilot keeps.
 
 use glam::{Affine3A, DVec2, Vec2, Vec3};
-use open_water::{BodyId, BodyState, GridId, OpenWater};
+use open_water::{BodyId, GridId, OpenWater, Pose};
 use water_view::DryHull;
 
 use crate::{Mark, Subject};
@@ -25,20 +25,16 @@ impl Launch {
         Self { body, wake, bounds, cells: Vec::new() }
     }
 
-    /// Its hull, in which no water shows.
-    pub fn dry(&self, water: &OpenWater) -> Option<DryHull> {
-        let pose = water.drawn_pose(self.body)?;
+    /// Its hull at `pose`, in which no water shows.
+    pub fn dry(&self, pose: Pose) -> DryHull {
         let world_from_hull = Affine3A::from_rotation_translation(pose.orientation, pose.position);
-        Some(DryHull { world_from_hull, low: self.bounds.0, high: self.bounds.1 })
+        DryHull { world_from_hull, low: self.bounds.0, high: self.bounds.1 }
     }
 
-    /// What a camera follows; `state` stands in before the first tick.
-    pub fn subject(&self, water: &OpenWater, state: BodyState) -> Subject {
+    /// What a camera follows when it is at `pose`.
+    pub fn subject(&self, pose: Pose) -> Subject {
         let length = self.bounds.1.x - self.bounds.0.x;
-        match water.drawn_pose(self.body) {
-            Some(pose) => Subject { position: pose.position, orientation: pose.orientation, length },
-            None => Subject { position: state.position, orientation: state.orientation, length },
-        }
+        Subject { position: pose.position, orientation: pose.orientation, length }
     }
 
     /// Gets ready for [`Self::foam`].
@@ -60,8 +56,8 @@ impl Launch {
         if inside { self.cells.get(index).map_or(0.0, |cell| cell[1]) } else { 0.0 }
     }
 
-    /// Its outline from above.
-    pub fn mark(&self, water: &OpenWater) -> Option<Mark> {
+    /// Its outline from above at `pose`.
+    pub fn mark(&self, pose: Pose) -> Mark {
         let (low, high) = self.bounds;
         let side = |x: f32, z: f32| (low.x + x * (high.x - low.x), low.z + z * (high.z - low.z));
         let shape = [
@@ -73,7 +69,7 @@ impl Launch {
             side(0.6, 1.0),
             side(0.0, 1.0),
         ];
-        Mark::of(water, self.body, &shape, [235, 235, 230])
+        Mark::of(pose, &shape, [235, 235, 230])
     }
 }
 

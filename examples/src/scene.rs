@@ -1,7 +1,7 @@
 //! What a scene tells the framework.
 
 use glam::{Quat, Vec2, Vec3};
-use open_water::{BodyId, OpenWater, Tick};
+use open_water::{OpenWater, Pose, Tick};
 use water_view::{DryHull, MeshView, WaterLook};
 
 use crate::SceneError;
@@ -35,14 +35,13 @@ pub struct Mark {
 }
 
 impl Mark {
-    /// A shape given by `corners` (x, z) in a body's frame; `None` for a body that is not drawn.
-    pub fn of(water: &OpenWater, body: BodyId, corners: &[(f32, f32)], color: [u8; 3]) -> Option<Self> {
-        let pose = water.drawn_pose(body)?;
+    /// A shape given by `corners` (x, z) in the frame of a body that stands at `pose`.
+    pub fn of(pose: Pose, corners: &[(f32, f32)], color: [u8; 3]) -> Self {
         let world = |&(x, z): &(f32, f32)| {
             let p = pose.position + pose.orientation * Vec3::new(x, 0.0, z);
             Vec2::new(p.x, p.z)
         };
-        Some(Self { outline: corners.iter().map(world).collect(), color })
+        Self { outline: corners.iter().map(world).collect(), color }
     }
 }
 
@@ -119,6 +118,11 @@ pub trait Scene: Sized + 'static {
 
     /// One of the scene's own cameras, fewer than `VIEWPOINTS`.
     fn viewpoint(&self, _index: usize) -> Option<Viewpoint> {
+        None
+    }
+
+    /// Elevation of the ground at a place, metres, where there is land; for the view from above.
+    fn ground(&self, _at: Vec2) -> Option<f32> {
         None
     }
 

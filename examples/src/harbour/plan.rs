@@ -94,7 +94,7 @@ pub fn walls() -> Vec<Vec<DVec2>> {
 }
 
 /// Distance from `p` to a polyline, metres.
-pub(crate) fn distance(line: &[Vec2], p: Vec2) -> f32 {
+pub fn distance(line: &[Vec2], p: Vec2) -> f32 {
     let mut best = f32::INFINITY;
     for pair in line.windows(2) {
         let d = pair[1] - pair[0];

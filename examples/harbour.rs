@@ -1,0 +1,425 @@
+//! A harbour in waves: breakwaters, a quay, a beach and a jetty; two boats under way, one moored; crates and flotsam that
+//! Rapier moves and the water carries.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use glam::{Affine3A, DVec2, Quat, Vec2, Vec3};
+use open_water::{
+    BodyDesc, BodyId, BodyState, Controls, Follow, GridDesc, GridId, Hull, Mooring, MooringId, MooringLine, OpenWater,
+    Pose, Tick,
+};
+use open_water_examples::harbour::{self, Bed, World};
+use open_water_examples::{
+    Course, Dice, Flotsam, Helm, Kind, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh,
+    run,
+};
+use water_view::{DryHull, Instance, MeshData, MeshId, MeshView, WaterLook};
+
+/// Pieces of flotsam: in the basin, outside.
+const FLOTSAM: [u32; 2] = [255, 45];
+/// Full speed, m/s.
+const SPEED: f32 = 12.0;
+/// Seconds run before the first picture: waves enter the basin, flotsam settles.
+const LEAD: f32 = 24.0;
+/// Nothing floats closer to a course or a wall at first, metres.
+const CLEAR: f32 = 7.0;
+/// Cells of the basin's grid, its cell size and its centre, metres.
+const BASIN: ([u32; 2], f32, DVec2) = ([328, 344], 1.0, DVec2::new(4.0, 2.0));
+
+/// Options of the harbour.
+#[derive(Debug, Clone, clap::Args)]
+struct More {
+    /// Depth map: a 16-bit greyscale PNG, 1 cm per level, the sea at level 32768, 2 m per pixel, the harbour's middle in
+    /// its middle, the sea to the left [default: the harbour's own]
+    #[arg(long, value_name = "FILE")]
+    depth: Option<PathBuf>,
+}
+
+struct Harbour {
+    water: OpenWater,
+    world: World,
+    bed: Bed,
+    hull: Hull,
+    waterline: f32,
+    fittings: bool,
+    /// Two under way, then the moored one.
+    boats: [Launch; 3],
+    courses: [Course; 2],
+    moorings: Vec<(MooringId, MooringLine)>,
+    basin: GridId,
+    flotsam: Flotsam,
+    /// Land and works; boat; line; fender.
+    meshes: Vec<MeshId>,
+    way: f32,
+    strayed: f32,
+}
+
+fn main() -> ExitCode {
+    run::<Harbour>()
+}
+
+/// Out by the gap and in again.
+fn ferry() -> Vec<(Vec2, f32)> {
+    [
+        (-66.0, 30.0, 0.5),
+        (-36.0, 62.0, 0.42),
+        (-18.0, 22.0, 0.42),
+        (-30.0, -50.0, 0.42),
+        (-66.0, -58.0, 0.42),
+        (-80.0, -12.0, 0.42),
+        (-97.0, 15.0, 0.42),
+        (-140.0, 10.0, 0.55),
+        (-186.0, -14.0, 0.55),
+        (-206.0, 30.0, 0.5),
+        (-176.0, 58.0, 0.5),
+        (-132.0, 34.0, 0.5),
+        (-97.0, 28.0, 0.5),
+    ]
+    .map(|(x, z, throttle)| (Vec2::new(x, z), throttle))
+    .to_vec()
+}
+
+/// Round the basin.
+fn round() -> Vec<(Vec2, f32)> {
+    [
+        (20.0, -84.0, 0.5),
+        (76.0, -80.0, 0.5),
+        (96.0, -40.0, 0.45),
+        (66.0, 0.0, 0.45),
+        (62.0, 66.0, 0.45),
+        (40.0, 108.0, 0.45),
+        (8.0, 70.0, 0.5),
+        (6.0, -30.0, 0.5),
+    ]
+    .map(|(x, z, throttle)| (Vec2::new(x, z), throttle))
+    .to_vec()
+}
+
+fn near(course: &[(Vec2, f32)], p: Vec2) -> bool {
+    let line: Vec<Vec2> = course.iter().chain(course.first()).map(|mark| mark.0).collect();
+    harbour::distance(&line, p) < CLEAR
+}
+
+impl Harbour {
+    fn start(place: Vec2, towards: Vec2, speed: f32) -> BodyState {
+        let ahead = (towards - place).normalize_or(Vec2::X);
+        BodyState {
+            orientation: Quat::from_rotation_y(-ahead.to_angle()),
+            velocity: speed * Vec3::new(ahead.x, 0.0, ahead.y),
+            ..BodyState::at_rest(Vec3::new(place.x, 0.4, place.y))
+        }
+    }
+
+    /// Makes the third boat fast to the quay: bow and stern lines and two springs.
+    fn moor(&mut self, mass: f32) -> Result<(), SceneError> {
+        let (low, high) = self.boats[2].bounds;
+        let deck = self.waterline + 0.6 * (high.y - self.waterline);
+        let bollards = harbour::bollards();
+        let mut lines = [(0.88, 9.0), (0.1, -9.0), (0.75, -4.0), (0.25, 4.0)].map(|(along, reach)| {
+            let point = Vec3::new(low.x + along * (high.x - low.x), deck, low.z * if along > 0.8 { 0.5 } else { 0.9 });
+            let wanted = harbour::BERTH.x + 0.5 * (low.x + high.x) + reach;
+            let anchor = bollards
+                .iter()
+                .copied()
+                .min_by(|a, b| (a.x - wanted).abs().total_cmp(&(b.x - wanted).abs()))
+                .unwrap_or(Vec3::ZERO);
+            (point, anchor + Vec3::Y * 0.45)
+        });
+        for (point, anchor) in &mut lines {
+            let start = Vec3::new(harbour::BERTH.x, -self.waterline, self.berth().y);
+            let length = 1.02 * (start + *point).distance(*anchor);
+            let line = MooringLine::rope(*point, *anchor, length, mass);
+            let id = self.water.add_mooring(Mooring { body: self.boats[2].body, line })?;
+            self.moorings.push((id, line));
+        }
+        Ok(())
+    }
+
+    /// Where the moored boat lies: a hand off its fenders.
+    fn berth(&self) -> Vec2 {
+        Vec2::new(harbour::BERTH.x, harbour::QUAY_HIGH.y + harbour::FENDER_FACE + 0.15 - self.boats[2].bounds.0.z)
+    }
+
+    fn scatter(&mut self, seed: u64) -> Result<(), SceneError> {
+        let mut dice = Dice(seed);
+        let (ferry, round) = (ferry(), round());
+        let walls = harbour::walls();
+        let areas =
+            [(Vec2::new(-84.0, -104.0), Vec2::new(120.0, 126.0)), (Vec2::new(-225.0, -90.0), Vec2::new(-118.0, 110.0))];
+        for ((low, high), count) in areas.into_iter().zip(FLOTSAM) {
+            for _ in 0..count {
+                // A map of another harbour may have no room.
+                let place = (0..400).find_map(|_| {
+                    let place = low + (high - low) * Vec2::new(dice.roll(), dice.roll());
+                    let open = walls.iter().all(|wall| {
+                        let line: Vec<Vec2> = wall.iter().chain(wall.first()).map(|p| p.as_vec2()).collect();
+                        harbour::distance(&line, place) > CLEAR
+                    });
+                    let jetty = harbour::distance(&harbour::JETTY, place) > CLEAR;
+                    let deep = self.bed.elevation(place) < -1.5;
+                    let berth = place.distance(self.berth()) > 12.0;
+                    (open && jetty && deep && berth && !near(&ferry, place) && !near(&round, place)).then_some(place)
+                });
+                let Some(place) = place else { continue };
+                let (piece, state) = self.flotsam.throw(&mut self.water, &mut dice, place)?;
+                self.world.spawn(&self.water, piece.body, state).map_err(harbour::refused)?;
+            }
+        }
+        // A stack on the jetty's head, some of it over the edge.
+        for k in 0..12 {
+            let kind = if k < 8 { Kind::Large } else { Kind::Small };
+            let half = kind.half();
+            let (row, layer) = (k % 4, k / 4);
+            let over = if k == 8 { 1.9 } else { 0.0 };
+            let start = Vec3::new(
+                harbour::JETTY[1].x + 3.0 + 2.6 * (row / 2) as f32,
+                harbour::JETTY_TOP + 0.02 + (2.02 * Kind::Large.half().y) * layer as f32 + half.y,
+                harbour::JETTY[1].y + 1.2 * (row % 2) as f32 - 0.6 + over,
+            );
+            let orientation = Quat::from_rotation_y(0.5 * (dice.roll() - 0.5));
+            let piece = self.flotsam.add(&mut self.water, kind, Vec3::splat(0.8 + 0.4 * dice.roll()), start)?;
+            let state = BodyState { orientation, ..BodyState::at_rest(start) };
+            self.world.spawn(&self.water, piece.body, state).map_err(harbour::refused)?;
+        }
+        Ok(())
+    }
+
+    fn pose(&self, body: BodyId) -> Option<Pose> {
+        self.world.pose(&self.water, body)
+    }
+
+    /// Where a mooring is made fast on board, at the drawn moment.
+    fn fast(&self, line: &MooringLine) -> Option<Vec3> {
+        let pose = self.pose(self.boats[2].body)?;
+        Some(pose.position + pose.orientation * line.point)
+    }
+}
+
+impl Scene for Harbour {
+    const NAME: &'static str = "harbour";
+    const ABOUT: &'static str =
+        "A harbour in waves: two boats under way, one moored, a beach, breakwaters, and flotsam that bumps into them.";
+    const SEA: &'static str = include_str!("assets/seas/harbour.txt");
+    const VIEWPOINTS: usize = 3;
+    type More = More;
+    type Assets = Bed;
+
+    fn assets(more: &More) -> Result<Bed, SceneError> {
+        Bed::read(more.depth.as_deref())
+    }
+
+    fn new(options: &Options, setup: &Setup<Bed>, mut water: OpenWater) -> Result<Self, SceneError> {
+        let hull = setup.hull.clone();
+        let mass = 0.24 * hull.volume() * 1025.0;
+        let desc = options.preset().body(BodyDesc::boat(&hull, mass, SPEED));
+        let waterline = hull.waterline(desc.displaced_volume()).level;
+        let bed = setup.assets.clone();
+        let world = World::new(water.desc().tick, bed.extent(), |p| bed.elevation(p));
+        let period = water.ocean().map_or(6.0, |ocean| ocean.peak_period());
+        let (cells, cell_size, center) = BASIN;
+        let basin = water.add_grid(GridDesc {
+            follow: Follow::Fixed(center),
+            cells,
+            cell_size,
+            // Waves of the peak period over deep water.
+            wave_speed: (1.56 * period as f32).clamp(6.0, 16.0),
+            ..options.preset().grid()
+        })?;
+        let courses = [Course::new(ferry()), Course::new(round())];
+        let mut boats = Vec::new();
+        for wake in [true, true, false] {
+            let body = water.add_body(desc.clone())?;
+            let follow = Follow::Body(body);
+            let grid = wake.then(|| water.add_grid(GridDesc { follow, ..options.preset().grid() })).transpose()?;
+            boats.push(Launch::new(body, grid, hull.bounds()));
+        }
+        let Ok(boats) = boats.try_into() else { return Err(SceneError::Usage("three boats".into())) };
+        let mut scene = Self {
+            water,
+            world,
+            bed,
+            hull,
+            waterline,
+            fittings: setup.own_hull,
+            boats,
+            courses,
+            moorings: Vec::new(),
+            basin,
+            flotsam: Flotsam::default(),
+            meshes: Vec::new(),
+            way: 0.0,
+            strayed: 0.0,
+        };
+        let starts = [
+            Self::start(Vec2::new(-206.0, 30.0), Vec2::new(-176.0, 58.0), 5.0),
+            Self::start(Vec2::new(6.0, -30.0), Vec2::new(20.0, -84.0), 5.0),
+            Self::start(scene.berth(), scene.berth() + Vec2::X, 0.0),
+        ];
+        for (boat, state) in scene.boats.iter().zip(starts) {
+            scene.world.spawn(&scene.water, boat.body, state).map_err(harbour::refused)?;
+        }
+        scene.moor(mass)?;
+        scene.scatter(options.seed)?;
+        let dt = scene.water.desc().tick;
+        for _ in 0..(LEAD / dt) as u32 {
+            for tick in scene.water.advance(dt) {
+                scene.tick(tick, Helm::default())?;
+            }
+        }
+        scene.way = 0.0;
+        Ok(scene)
+    }
+
+    fn water(&self) -> &OpenWater {
+        &self.water
+    }
+
+    fn water_mut(&mut self) -> &mut OpenWater {
+        &mut self.water
+    }
+
+    fn tick(&mut self, tick: Tick, helm: Helm) -> Result<(), SceneError> {
+        for (i, (boat, course)) in self.boats.iter().zip(&mut self.courses).enumerate() {
+            let Some((pose, velocity)) = self.world.motion(boat.body) else { continue };
+            let auto = course.steer(pose.position, pose.orientation * Vec3::X);
+            let [throttle, steering] = if i == 0 { helm.manual.unwrap_or(auto) } else { auto };
+            self.water.set_controls(boat.body, Controls { throttle, steering, ..Controls::default() })?;
+            if i == 0 {
+                self.way += velocity.with_y(0.0).length() * tick.dt;
+            }
+        }
+        self.world.tick(&mut self.water, tick)?;
+        if let Some((pose, _)) = self.world.motion(self.boats[2].body) {
+            let off = Vec2::new(pose.position.x, pose.position.z).distance(self.berth());
+            self.strayed = self.strayed.max(off);
+        }
+        Ok(())
+    }
+
+    fn build(&mut self, device: &wgpu::Device, meshes: &mut MeshView) {
+        let bed = self.bed.clone();
+        let still = Instance { world_from_mesh: Affine3A::IDENTITY, tint: Vec3::ONE };
+        let _ = still;
+        let mut line = MeshData::default();
+        line.cylinder(Vec3::ZERO, Vec3::X, 1.0, 6, [206, 196, 160, 10]);
+        let half = self.world.fenders().1;
+        let mut fender = MeshData::default();
+        fender.cylinder(Vec3::X * -half.x, Vec3::X * half.x, half.z, 14, [40, 40, 44, 60]);
+        self.meshes = [
+            (harbour::ground(bed.extent(), 0.0, |p| bed.elevation(p)), 1),
+            (harbour::breakwaters(), 1),
+            (harbour::quay(), 1),
+            (harbour::jetty(), 1),
+            (boat_mesh(&self.hull, self.waterline, self.fittings), 3),
+            (line, self.moorings.len()),
+            (fender, 8),
+        ]
+        .map(|(data, room)| meshes.add(device, &data, room))
+        .to_vec();
+        self.flotsam.build(device, meshes);
+    }
+
+    fn place(&mut self, queue: &wgpu::Queue, meshes: &mut MeshView) {
+        let at = |world_from_mesh| Instance { world_from_mesh, tint: Vec3::ONE };
+        let (world, water) = (&self.world, &self.water);
+        let boats: Vec<Instance> = self
+            .boats
+            .iter()
+            .filter_map(|boat| world.pose(water, boat.body))
+            .map(|pose| at(Affine3A::from_rotation_translation(pose.orientation, pose.position)))
+            .collect();
+        let lines: Vec<Instance> = self
+            .moorings
+            .iter()
+            .filter_map(|(_, line)| Some((self.fast(line)?, line.anchor)))
+            .map(|(a, b)| {
+                let turn = Quat::from_rotation_arc(Vec3::X, (b - a).normalize_or(Vec3::X));
+                let thick = Vec3::new(a.distance(b), 0.022, 0.022);
+                at(Affine3A::from_scale_rotation_translation(thick, turn, a))
+            })
+            .collect();
+        let fenders: Vec<Instance> = world.fenders().0.into_iter().map(|p| at(Affine3A::from_translation(p))).collect();
+        for (index, mesh) in self.meshes.iter().enumerate() {
+            let instances: &[Instance] = match index {
+                4 => &boats,
+                5 => &lines,
+                6 => &fenders,
+                _ => &[at(Affine3A::IDENTITY)],
+            };
+            meshes.place(queue, *mesh, instances);
+        }
+        self.flotsam.place(|body| world.pose(water, body), queue, meshes);
+    }
+
+    fn dry(&self) -> [Option<DryHull>; 4] {
+        let dry = |i: usize| Some(self.boats[i].dry(self.pose(self.boats[i].body)?));
+        [dry(0), dry(1), dry(2), None]
+    }
+
+    fn look(&self) -> WaterLook {
+        // Coastal water, greener and less clear than the open sea.
+        WaterLook {
+            scatter: Vec3::new(0.0065, 0.0265, 0.0280),
+            absorption: Vec3::new(0.62, 0.30, 0.34),
+            bed: Vec3::new(0.36, 0.31, 0.22),
+            ..WaterLook::default()
+        }
+    }
+
+    fn viewpoint(&self, index: usize) -> Option<Viewpoint> {
+        let views = [
+            (Vec3::new(-205.0, 62.0, 150.0), Vec3::new(0.0, 0.0, -14.0)),
+            (Vec3::new(150.0, 5.5, 92.0), Vec3::new(60.0, 0.0, -10.0)),
+            (Vec3::new(66.0, 6.0, -98.0), Vec3::new(30.0, 0.5, -108.0)),
+        ];
+        views.get(index).map(|&(eye, target)| Viewpoint { eye, target })
+    }
+
+    fn map(&self) -> (Vec2, f32) {
+        (Vec2::new(-24.0, 4.0), 520.0)
+    }
+
+    fn ground(&self, at: Vec2) -> Option<f32> {
+        Some(self.bed.elevation(at))
+    }
+
+    fn subject(&self) -> Subject {
+        let rest = Pose { position: Vec3::ZERO, orientation: Quat::IDENTITY };
+        self.boats[0].subject(self.pose(self.boats[0].body).unwrap_or(rest))
+    }
+
+    fn look_down(&mut self) {
+        for boat in &mut self.boats {
+            boat.look_down(&self.water);
+        }
+    }
+
+    fn foam(&self, at: Vec2) -> f32 {
+        self.boats.iter().map(|boat| boat.foam(&self.water, at)).fold(0.0, f32::max)
+    }
+
+    fn marks(&self) -> Vec<Mark> {
+        let mut marks = harbour::marks();
+        self.flotsam.marks(|body| self.pose(body), &mut marks);
+        marks.extend(self.boats.iter().filter_map(|boat| Some(boat.mark(self.pose(boat.body)?))));
+        marks
+    }
+
+    fn status(&self) -> String {
+        let speed = self.world.motion(self.boats[0].body).map_or(0.0, |(_, v)| v.with_y(0.0).length());
+        format!("boat {speed:.1} m/s, {} bodies, t {:.1} s", self.water.body_count(), self.water.time())
+    }
+
+    fn summary(&self) -> Vec<(&'static str, String)> {
+        let tension =
+            self.moorings.iter().filter_map(|(id, _)| self.water.mooring_tension(*id).ok()).fold(0.0, f32::max);
+        let asleep = self.water.grid(self.basin).ok().flatten().is_none_or(|grid| grid.is_asleep());
+        vec![
+            ("boat", format!("{:.1} m of way made", self.way)),
+            ("moored boat", format!("{:.2} m from its berth at most, tightest line {tension:.0} N", self.strayed)),
+            ("basin", if asleep { "asleep".into() } else { "moving".to_string() }),
+            ("flotsam", self.flotsam.summary(|body| Some(self.world.motion(body)?.0.position))),
+        ]
+    }
+}
