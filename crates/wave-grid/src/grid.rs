@@ -1,16 +1,14 @@
 //! A grid of interactive waves homed on the CPU.
 
-use std::sync::Arc;
-
 use glam::{DVec2, Vec2};
 
 use crate::border::{Axis, Profile};
 use crate::cpu::foam::FoamLaw;
 use crate::cpu::kernels::Coefficients;
 use crate::cpu::step::Setting;
-use crate::cpu::tiles::{Class, Mode, Tiles};
-use crate::ground::{Cells, Ground};
-use crate::medium::{CellLaw, Medium, SharedMedium};
+use crate::cpu::tiles::{Mode, Tiles};
+use crate::feed::{Feed, Incident};
+use crate::ground::Ground;
 use crate::source::{Footprint, HEIGHT_LIMIT};
 use crate::window::{Move, Place};
 use crate::{GridDesc, GridError, Source, Stepping, cpu, state::State};
@@ -28,7 +26,7 @@ pub struct GridSample {
 
 /// Waves on a window of cells that follows a target, absorbed at its border.
 ///
-/// `z_tt + sigma z_t = div(c^2 grad z)`, explicit in time, c and sigma as its [`Medium`] has them. Cloning it is a snapshot.
+/// `z_tt + sigma z_t = div(c^2 grad z)`, explicit in time, c and sigma as its [`crate::Medium`] has them. Cloning it is a snapshot.
 #[derive(Debug, Clone)]
 pub struct WaveGrid {
     pub(crate) desc: GridDesc,
@@ -38,6 +36,7 @@ pub struct WaveGrid {
     pub(crate) state: State,
     pub(crate) tiles: Tiles,
     pub(crate) ground: Option<Ground>,
+    pub(crate) feed: Option<Feed>,
     coefficients: Coefficients,
     law: FoamLaw,
     profile: Profile,
@@ -66,6 +65,7 @@ impl WaveGrid {
             state: State::new(nx, nz),
             tiles: Tiles::new([nx, nz], place.window.tile_offset()),
             ground: None,
+            feed: None,
             coefficients: Coefficients {
                 straight: (stepping.a * straight) as f32,
                 beside: (stepping.a * beside) as f32,
@@ -85,7 +85,7 @@ impl WaveGrid {
         Ok(grid)
     }
 
-    fn update_fade(&mut self) {
+    pub(crate) fn update_fade(&mut self) {
         for (axis, fade) in self.fade.iter_mut().enumerate() {
             self.place.fade(axis, fade);
         }
@@ -103,6 +103,7 @@ impl WaveGrid {
     /// fraction. The water stands still in the world; what enters is calm. A jump past all that the window holds clears it. A target
     /// that is not finite, or farther than 10^14 cells, is ignored.
     pub fn center_on(&mut self, target: DVec2) {
+        let stood = self.place.window;
         match self.place.follow(target) {
             Move::Stay => {}
             Move::Shift(shift) => {
@@ -120,44 +121,10 @@ impl WaveGrid {
                 self.read_ground();
             }
         }
+        if self.place.window != stood {
+            self.renew_feed();
+        }
         self.update_fade();
-    }
-
-    /// Sets what the water lies in; `None` (default) is open deep water everywhere. May change while waves run: those in
-    /// what becomes wall or held water are let go, what a wall leaves behind is calm.
-    pub fn set_medium(&mut self, medium: Option<Arc<dyn Medium>>) {
-        let law = CellLaw::new(&self.desc, &self.stepping);
-        let corner = self.place.window.corner;
-        // The ghosts of the old walls go, then whatever stands in the new ones.
-        self.dry_walls();
-        for tile in &mut self.tiles.tiles {
-            tile.class = Class::Plain;
-        }
-        self.ground = medium.map(|medium| Ground::new(SharedMedium(medium), law, corner, &mut self.tiles));
-        self.dry_walls();
-        if let Some(cells) = self.ground.as_ref().and_then(|ground| ground.cells.as_ref()) {
-            let State { z, old, previous, .. } = &mut self.state;
-            cpu::ghosts::fill([z, old, previous], &self.tiles, cells);
-        }
-    }
-
-    /// Reads the medium anew.
-    fn read_ground(&mut self) {
-        if let Some(Ground { medium, law, .. }) = self.ground.take() {
-            self.ground = Some(Ground::new(medium, law, self.place.window.corner, &mut self.tiles));
-        }
-    }
-
-    /// The medium's cells, where it is felt at all.
-    pub(crate) fn cells(&self) -> Option<&Cells> {
-        self.ground.as_ref()?.cells.as_ref()
-    }
-
-    /// Nothing stands in walls and held water, nothing flows through their faces.
-    pub(crate) fn dry_walls(&mut self) {
-        if let Some(cells) = self.ground.as_ref().and_then(|ground| ground.cells.as_ref()) {
-            self.state.dry_walls(cells);
-        }
     }
 
     /// Whether every array is zero.
@@ -221,7 +188,25 @@ impl WaveGrid {
 
     /// Advances by one tick. A grid at rest returns at once.
     pub fn tick(&mut self) {
+        self.advance(None);
+    }
+
+    /// Advances by one tick with waves entering through the sides of [`Self::set_feed`]. For each line (by its index in
+    /// [`Self::feed_lines`]) and sub-step, `incident` writes the heights of the incident waves as the sub-step
+    /// begins: at the points outside the contour and at those inside. What is not finite counts as zero.
+    pub fn tick_fed(&mut self, incident: &mut dyn FnMut(usize, u32, [&mut [f32]; 2])) {
+        // Not in its place while the state is written.
+        let mut feed = self.feed.take();
+        self.advance(feed.as_mut().map(|feed| (feed, incident)));
+        self.feed = feed;
+    }
+
+    fn advance(&mut self, mut fed: Option<(&mut Feed, &mut Incident)>) {
         self.capture();
+        if let Some((feed, incident)) = &mut fed {
+            feed.ask(incident, 0);
+            feed.wake(&mut self.tiles, self.state.nx);
+        }
         if self.skipping {
             self.tiles.schedule();
         } else {
@@ -246,8 +231,14 @@ impl WaveGrid {
             coefficients: self.coefficients,
             cells,
         };
-        for _ in 0..self.stepping.substeps {
+        for substep in 0..self.stepping.substeps {
             cpu::step::step(&mut self.state, &setting);
+            if let Some((feed, incident)) = &mut fed {
+                if substep > 0 {
+                    feed.ask(incident, substep);
+                }
+                feed.correct(&mut self.state.z);
+            }
         }
         if let Some(cells) = cells {
             cpu::ghosts::fill([&mut self.state.z, &mut self.state.old], &self.tiles, cells);

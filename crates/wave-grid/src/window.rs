@@ -2,6 +2,7 @@
 
 use glam::{DVec2, Vec2};
 
+use crate::feed::{Edges, contour};
 use crate::{GridDesc, desc::TILE};
 
 /// How far, in cells, the target may stray from the middle of the window before it shifts: one cell keeps a bobbing
@@ -67,6 +68,8 @@ pub(crate) struct Place {
     /// Extent without the border layer, cells.
     interior: [i64; 2],
     pml_width: u32,
+    /// Sides where the fade ends at the feed's contour.
+    pub(crate) fed: Edges,
 }
 
 impl Place {
@@ -76,7 +79,7 @@ impl Place {
         let window =
             Window { corner: desc.cells.map(|n| -(i64::from(n) / 2)), cells: desc.cells, cell_size: desc.cell_size };
         let interior = desc.cells.map(|n| i64::from(n) - rim);
-        let mut place = Self { window, lean: [0.0; 2], interior, pml_width: desc.pml_width };
+        let mut place = Self { window, lean: [0.0; 2], interior, pml_width: desc.pml_width, fed: Edges::default() };
         place.lean = place.stray(DVec2::ZERO);
         place
     }
@@ -113,11 +116,22 @@ impl Place {
     /// Fade at each cell centre along one axis: 1 inside, 0 within three cells of the edge wherever the window leans.
     /// The fade of a cell is the product of both axes'.
     pub(crate) fn fade(&self, axis: usize, out: &mut [f32]) {
-        let [middle, outer] = self.fade_reach(axis);
         for (i, f) in out.iter_mut().enumerate() {
-            let t = ((outer - (i as f64 + 0.5 - middle).abs()) / self.fade_width()).clamp(0.0, 1.0);
-            *f = (t * t * (3.0 - 2.0 * t)) as f32;
+            *f = self.fade_of(axis, i as f64 + 0.5);
         }
+    }
+
+    /// One axis' factor of the fade at a place in cells from the corner.
+    pub(crate) fn fade_of(&self, axis: usize, x: f64) -> f32 {
+        let [middle, outer] = self.fade_reach(axis);
+        let cells = f64::from(self.window.cells[axis]);
+        let [fed_low, fed_high] = self.fed.of(axis);
+        let contour = contour(self.pml_width) as f64;
+        let low = if fed_low { contour } else { middle - outer };
+        let high = if fed_high { cells - contour } else { middle + outer };
+        let t = ((x - low).min(high - x) / self.fade_width()).clamp(0.0, 1.0);
+        // NaN outside.
+        if t > 0.0 { (t * t * (3.0 - 2.0 * t)) as f32 } else { 0.0 }
     }
 
     /// Middle of the fade (cells from the corner) and the distance from it where it reaches zero.
