@@ -93,8 +93,9 @@ pub(crate) struct Feed {
     lines: Vec<Line>,
 }
 
-/// Asks for incident heights, see [`crate::WaveGrid::tick_fed`].
-pub(crate) type Incident<'a> = dyn FnMut(usize, u32, [&mut [f32]; 2]) + 'a;
+/// Answers with incident heights, see [`crate::WaveGrid::tick_fed`]: index of the line, sub-step, heights at the points
+/// outside the contour and inside.
+pub type Incident<'a> = dyn FnMut(usize, u32, [&mut [f32]; 2]) + 'a;
 
 impl Feed {
     pub(crate) fn new(

@@ -194,7 +194,7 @@ impl WaveGrid {
     /// Advances by one tick with waves entering through the sides of [`Self::set_feed`]. For each line (by its index in
     /// [`Self::feed_lines`]) and sub-step, `incident` writes the heights of the incident waves as the sub-step
     /// begins: at the points outside the contour and at those inside. What is not finite counts as zero.
-    pub fn tick_fed(&mut self, incident: &mut dyn FnMut(usize, u32, [&mut [f32]; 2])) {
+    pub fn tick_fed(&mut self, incident: &mut Incident) {
         // Not in its place while the state is written.
         let mut feed = self.feed.take();
         self.advance(feed.as_mut().map(|feed| (feed, incident)));

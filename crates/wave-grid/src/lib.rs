@@ -43,7 +43,7 @@ mod window;
 pub use cpu::tiles::{QUIET_FOAM, QUIET_HEIGHT};
 pub use desc::{GridDesc, MAX_SUBSTEPS, Scheme, Stepping, TILE};
 pub use error::GridError;
-pub use feed::{Edges, FeedLine, Side};
+pub use feed::{Edges, FeedLine, Incident, Side};
 pub use grid::{GridSample, WaveGrid};
 pub use medium::{CellKind, Medium, MediumCell};
 pub use source::{HEIGHT_LIMIT, Source};
