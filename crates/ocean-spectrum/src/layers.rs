@@ -70,19 +70,20 @@ pub(crate) struct Found {
     displacement: [f32; 4],
 }
 
-#[inline]
-fn add(sum: &mut [f32; 4], factor: f32, term: [f32; 4]) {
+fn add(sum: &mut [f32; 4], term: [f32; 4]) {
     for (sum, term) in sum.iter_mut().zip(term) {
-        *sum += factor * term;
+        *sum += term;
     }
 }
 
-impl Gradient {
-    const FLAT: Self = Self { d: [0.0; 4], cross: [0.0; 2] };
+fn add_scaled(sum: &mut [f32; 4], factor: f32, term: [f32; 4]) {
+    add(sum, term.map(|term| factor * term));
+}
 
+impl Gradient {
     /// What the slopes of a factor add, at a place of this displacement.
     fn tilt(&mut self, slope_x: f32, slope_z: f32, [x, h, z, _]: [f32; 4]) {
-        add(&mut self.d, 1.0, [h * slope_x, h * slope_z, x * slope_x, z * slope_z]);
+        add(&mut self.d, [h * slope_x, h * slope_z, x * slope_x, z * slope_z]);
         self.cross[0] += x * slope_z;
         self.cross[1] += z * slope_x;
     }
@@ -111,38 +112,10 @@ impl Gradient {
 }
 
 impl Layers<'_> {
-    /// `(Dx, h, Dz, dDx/dz)`, the last without what the map's slopes add.
-    #[inline]
-    fn displacement(&self, rest: Vec2) -> [f32; 4] {
-        let mut sum = [0.0; 4];
-        let factors = self.map.map(|map| map.values(rest));
-        for (c, layer) in self.layers.iter().enumerate() {
-            let texels = layer.taps(rest).read(layer.fields.displacement());
-            add(&mut sum, factors.as_ref().map_or(1.0, |factors| factors[c]), texels);
-        }
-        sum
-    }
-
-    /// The gradient where [`Self::displacement`] gave `cross`.
-    fn gradient(&self, rest: Vec2, cross: f32) -> Gradient {
-        let mut gradient = Gradient { cross: [cross; 2], ..Gradient::FLAT };
-        let factors = self.map.map(|map| map.at(rest));
-        for (c, layer) in self.layers.iter().enumerate() {
-            let taps = layer.taps(rest);
-            let derivative = taps.read(layer.fields.derivative());
-            let Some(factors) = &factors else {
-                add(&mut gradient.d, 1.0, derivative);
-                continue;
-            };
-            add(&mut gradient.d, factors.value[c], derivative);
-            gradient.tilt(factors.slope[0][c], factors.slope[1][c], taps.read(layer.fields.displacement()));
-        }
-        gradient
-    }
-
     /// Everything at a rest point, cascade `c` weakened to `share(c)`.
     pub(crate) fn state(&self, rest: Vec2, share: impl Fn(usize) -> f32) -> State {
-        let mut state = State { displacement: [0.0; 4], gradient: Gradient::FLAT, velocity: [0.0; 4] };
+        let mut state =
+            State { displacement: [0.0; 4], gradient: Gradient { d: [0.0; 4], cross: [0.0; 2] }, velocity: [0.0; 4] };
         let factors = self.map.map(|map| map.at(rest));
         for (c, layer) in self.layers.iter().enumerate() {
             let share = share(c);
@@ -152,9 +125,9 @@ impl Layers<'_> {
             }
             let taps = layer.taps(rest);
             let displacement = taps.read(layer.fields.displacement());
-            add(&mut state.displacement, factor, displacement);
-            add(&mut state.gradient.d, factor, taps.read(layer.fields.derivative()));
-            add(&mut state.velocity, factor, taps.read(layer.fields.velocity()));
+            add_scaled(&mut state.displacement, factor, displacement);
+            add_scaled(&mut state.gradient.d, factor, taps.read(layer.fields.derivative()));
+            add_scaled(&mut state.velocity, factor, taps.read(layer.fields.velocity()));
             if let Some(factors) = &factors {
                 state.gradient.tilt(share * factors.slope[0][c], share * factors.slope[1][c], displacement);
             }
@@ -173,30 +146,67 @@ impl Layers<'_> {
         let (mut d, mut velocity) = ([0.0; 4], [0.0; 4]);
         for layer in self.layers {
             let taps = layer.taps(found.rest);
-            add(&mut d, 1.0, taps.read(layer.fields.derivative()));
-            add(&mut velocity, 1.0, taps.read(layer.fields.velocity()));
+            add(&mut d, taps.read(layer.fields.derivative()));
+            add(&mut velocity, taps.read(layer.fields.velocity()));
         }
         let gradient = Gradient { d, cross: [found.displacement[3]; 2] };
         State { displacement: found.displacement, gradient, velocity }
     }
 
-    /// Inverts the horizontal displacement: finds `rest` with `rest + D(rest) = point`.
+    /// Finds the rest point whose water is seen at `point`.
     pub(crate) fn find(&self, point: Vec2) -> Found {
-        let mut rest = point;
-        let mut best = Found { rest, residual: f32::INFINITY, displacement: [0.0; 4] };
-        for round in 0..=CHOP_FIXED_ROUNDS + CHOP_NEWTON_ROUNDS {
-            let displacement = self.displacement(rest);
-            let miss = point - rest - Vec2::new(displacement[0], displacement[2]);
-            let residual = miss.length();
-            if residual < best.residual {
-                best = Found { rest, residual, displacement };
+        let layers = self.layers;
+        match self.map {
+            None => invert(
+                point,
+                |rest| sum(layers, rest, Synthesis::displacement),
+                |rest, cross| Gradient { d: sum(layers, rest, Synthesis::derivative), cross: [cross; 2] },
+            ),
+            Some(map) => {
+                invert(point, |rest| displacement(layers, map, rest), |rest, _| self.state(rest, |_| 1.0).gradient)
             }
-            if residual < CHOP_TOLERANCE {
-                break;
-            }
-            rest +=
-                if round < CHOP_FIXED_ROUNDS { miss } else { self.gradient(rest, displacement[3]).newton_step(miss) };
         }
-        best
     }
+}
+
+/// The sum of one array, without a map.
+#[inline]
+fn sum(layers: &[Layer], rest: Vec2, texels: impl Fn(&Synthesis) -> &[[f32; 4]]) -> [f32; 4] {
+    let mut sum = [0.0; 4];
+    for layer in layers {
+        add(&mut sum, layer.taps(rest).read(texels(&layer.fields)));
+    }
+    sum
+}
+
+/// `(Dx, h, Dz, ..)` scaled by a map.
+fn displacement(layers: &[Layer], map: &Placed, rest: Vec2) -> [f32; 4] {
+    let mut sum = [0.0; 4];
+    for (layer, factor) in layers.iter().zip(map.values(rest)) {
+        add_scaled(&mut sum, factor, layer.taps(rest).read(layer.fields.displacement()));
+    }
+    sum
+}
+
+/// Inverts the horizontal displacement: finds `rest` with `rest + D(rest) = point`, given D and its gradient.
+fn invert(
+    point: Vec2,
+    displacement_at: impl Fn(Vec2) -> [f32; 4],
+    gradient_at: impl Fn(Vec2, f32) -> Gradient,
+) -> Found {
+    let mut rest = point;
+    let mut best = Found { rest, residual: f32::INFINITY, displacement: [0.0; 4] };
+    for round in 0..=CHOP_FIXED_ROUNDS + CHOP_NEWTON_ROUNDS {
+        let displacement = displacement_at(rest);
+        let miss = point - rest - Vec2::new(displacement[0], displacement[2]);
+        let residual = miss.length();
+        if residual < best.residual {
+            best = Found { rest, residual, displacement };
+        }
+        if residual < CHOP_TOLERANCE {
+            break;
+        }
+        rest += if round < CHOP_FIXED_ROUNDS { miss } else { gradient_at(rest, displacement[3]).newton_step(miss) };
+    }
+    best
 }
