@@ -33,6 +33,7 @@
 mod amplitude;
 pub mod dispersion;
 mod error;
+mod feed;
 mod fft;
 mod file;
 #[cfg(feature = "gpu")]
@@ -57,6 +58,7 @@ mod table;
 
 pub use amplitude::{AmplitudeMap, CascadeFactors};
 pub use error::{Notice, OceanError};
+pub use feed::{EdgeDesc, EdgeFeed};
 pub use modes::CascadeModes;
 pub use ocean::{CascadeDesc, CascadeFields, Ocean, OceanDesc};
 pub use patch::OceanPatch;
