@@ -11,5 +11,6 @@ mod ocean_looks;
 mod readback;
 mod shaders;
 mod surface;
+mod view_land;
 mod view_picture;
 mod view_stage;

@@ -6,6 +6,7 @@ use open_water_shaders::surface::{self, SurfaceCascade, SurfaceGrid, SurfaceTabl
 use water_view::{Camera, ViewDesc, ViewParams, WaterView};
 
 use crate::context::Context;
+use crate::view_land::Ground;
 
 /// Texels of one cascade: (Dx, h, Dz, foam) and (dh/dx, dh/dz, dDx/dx, dDz/dz).
 pub(crate) struct Cascade {
@@ -22,6 +23,10 @@ pub(crate) struct Sea {
     pub(crate) grids: Vec<(SurfaceGrid, Vec<[f32; 2]>)>,
     pub(crate) hidden_slope: [f32; 16],
     pub(crate) wave_height: f32,
+    /// Bed, open water and walls, where there is land.
+    pub(crate) land: Option<Ground>,
+    /// Level of still water, metres.
+    pub(crate) level: f32,
 }
 
 impl Sea {
@@ -107,8 +112,10 @@ impl Stage {
             grid_count: sea.grids.len() as u32,
             significant_height: sea.wave_height,
             hidden_slope: sea.hidden_slope,
+            land: sea.land.as_ref().map_or(Default::default(), Ground::entry),
             ..SurfaceTable::default()
         };
+        table.land.level = sea.level;
         for (slot, cascade) in table.cascades.iter_mut().zip(&sea.cascades) {
             *slot = SurfaceCascade { tile: cascade.tile, size: sea.size as f32, ..SurfaceCascade::default() };
         }
@@ -132,6 +139,7 @@ impl Stage {
         });
         let views =
             [full(|c| &c.displacement), full(|c| &c.derivative), looks(|c| &c.displacement), looks(|c| &c.derivative)];
+        let ground = sea.land.as_ref().map(|land| land.texture(context));
         let group = bind_group(
             device,
             "stage",
@@ -144,8 +152,8 @@ impl Stage {
                 wgpu::BindingResource::TextureView(&views[2]),
                 wgpu::BindingResource::TextureView(&views[3]),
                 wgpu::BindingResource::Sampler(&sampler),
-                // No land: any view will do.
-                wgpu::BindingResource::TextureView(&views[0]),
+                // Without land any view will do.
+                wgpu::BindingResource::TextureView(ground.as_ref().unwrap_or(&views[0])),
             ],
         );
         Self { layout, group }
