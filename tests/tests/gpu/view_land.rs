@@ -131,6 +131,8 @@ fn no_water_shows_on_land_nor_where_there_is_none() {
     for (x, z, expected) in [(-3.0, 3.0, 0), (-3.0, -3.0, 0), (3.0, -3.0, 0), (3.0, 3.0, 255)] {
         let [i, j] = pixel(&params, x, z);
         assert_eq!(picture.at(i, j)[3], expected, "at {x}, {z}");
+        let stands = picture.depth[(j * SIZE[0] + i) as usize] > 0.0;
+        assert_eq!(stands, expected > 0, "something stands in the depth target at {x}, {z}");
     }
 }
 
@@ -144,11 +146,11 @@ fn the_level_lifts_the_whole_sea() {
         (params.wave_height, params.level) = (sea.wave_height, level);
         render(&context, &Stage::new(&context, &sea), &desc, &params, SIZE, Draw::All)
     };
-    let (low, high) = (take(0.0), take(3.0));
+    let (low, high) = (take(0.0), take(300.0));
     let apart: u64 =
         low.color.iter().flatten().zip(high.color.iter().flatten()).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
     let mean = apart as f32 / (4 * SIZE[0] * SIZE[1]) as f32;
-    assert!(mean < 0.3, "three metres of water, seen from three metres higher: {mean} levels apart");
+    assert!(mean < 0.3, "water at 300 m, seen from as much higher: {mean} levels apart");
 }
 
 #[test]
