@@ -7,10 +7,13 @@ use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use super::GRAVITY;
 use super::RapierError;
 
-/// Change of acceleration, at the farthest point of the hull, that is no rest, m/s^2.
-const STIR: f32 = 0.05;
+/// Change of acceleration, at the farthest point of the hull, that wakes a body asleep and that is no rest for one awake,
+/// m/s^2. A swing this small is some thousandths of the draft.
+const STIR: (f32, f32) = (0.02, 0.005);
 /// Speed of the farthest point of a hull afloat that is no rest, m/s.
 const STILL: f32 = 0.01;
+/// Ticks of rest before Rapier may begin to count its own half second: else a slow swing would freeze where it turns.
+const PATIENCE: u32 = 180;
 /// How far mass, centre of mass and inertia may be off, of their size.
 const TOLERANCE: f32 = 0.01;
 
@@ -26,6 +29,8 @@ pub(super) struct Link {
     reach: f32,
     /// The wrench in which it came to rest.
     rest: Wrench,
+    /// Ticks since then.
+    calm: u32,
     asleep: bool,
 }
 
@@ -39,6 +44,7 @@ impl Link {
             moment: inertia.x_axis.x.min(inertia.y_axis.y).min(inertia.z_axis.z),
             reach: body.bounding_radius(),
             rest: Wrench::default(),
+            calm: 0,
             asleep: false,
         }
     }
@@ -86,20 +92,21 @@ impl Link {
             + (wrench.torque - self.rest.torque).length() * self.reach / self.moment;
         if rigid.is_sleeping() {
             if !self.asleep {
-                (self.asleep, self.rest) = (true, *wrench);
+                (self.asleep, self.rest, self.calm) = (true, *wrench, 0);
                 return false;
             }
-            *wake = change > STIR;
+            *wake = change > STIR.0;
             self.asleep = !*wake;
             return *wake;
         }
         self.asleep = false;
         let afloat = wrench.force.length() > 1.0e-3 * self.mass * GRAVITY.length();
         let speed = rigid.linvel().length() + rigid.angvel().length() * self.reach;
-        *wake = change > STIR || (afloat && speed > STILL);
-        if change > STIR {
-            self.rest = *wrench;
+        self.calm = self.calm.saturating_add(1);
+        if change > STIR.1 || speed > STILL {
+            (self.rest, self.calm) = (*wrench, 0);
         }
+        *wake = afloat && self.calm < PATIENCE;
         true
     }
 

@@ -1,0 +1,7 @@
+//! Bodies in a Rapier world.
+#![cfg(feature = "rapier")]
+
+mod float;
+mod live;
+mod rest;
+mod world;
