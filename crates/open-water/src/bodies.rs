@@ -162,14 +162,14 @@ impl Bodies {
     }
 
     /// Moves every active body by one tick and gathers what it displaced.
-    pub(crate) fn step(&mut self, dt: f32, ocean: Option<&ocean_spectrum::Ocean>, grids: &Grids) {
+    pub(crate) fn step(&mut self, dt: f32, water: Composite) {
+        let grids = water.grids;
         self.list.par_chunks_mut(CHUNK).for_each(|entries| {
             for entry in entries.iter_mut().filter(|entry| entry.active) {
                 let before = entry.body.state();
                 entry.home = grids.home_of(entry.id, before.position);
                 let alone = entry.home.is_some_and(|home| grids.follows(home, entry.id));
                 entry.disturbs = alone || entry.body.desc().radiation == Radiation::Grid;
-                let water = Composite { ocean, grids };
                 let water = BodyWater { water, home: entry.home, alone, disturbs: entry.disturbs };
                 match entry.wants {
                     Wants::State => entry.body.step(dt, &water, &entry.controls),

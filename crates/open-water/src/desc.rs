@@ -3,7 +3,7 @@
 use floating_body::BodyDesc;
 use glam::{DVec2, Vec3};
 use ocean_spectrum::{CascadeDesc, OceanDesc, SeaState};
-use wave_grid::Scheme;
+use wave_grid::{Edges, Scheme};
 
 use crate::{BodyId, OpenWaterError};
 
@@ -84,12 +84,16 @@ pub struct GridDesc {
     pub cells: [u32; 2],
     /// Cell size, metres.
     pub cell_size: f32,
-    /// Speed of the waves, metres per second.
+    /// Speed of the waves in deep water, metres per second. Over a bed they slow down as waves of that period do.
     pub wave_speed: f32,
     /// Interior scheme.
     pub scheme: Scheme,
     /// Width of the absorbing border, cells.
     pub pml_width: u32,
+    /// Sides through which the ambient sea comes in; needs [`Land`](crate::Land), a fixed place on its depth map and a
+    /// home on the CPU. Where such a grid is, the ambient sea leaves the waves to it that it can carry: of the longest
+    /// cascades those whose shortest wave has six cells.
+    pub feed: Edges,
 }
 
 impl Default for GridDesc {
@@ -164,6 +168,7 @@ impl Preset {
             wave_speed,
             scheme,
             pml_width,
+            feed: Edges::default(),
         }
     }
 

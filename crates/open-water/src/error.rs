@@ -16,6 +16,43 @@ pub enum OpenWaterError {
         /// What is allowed.
         bound: &'static str,
     },
+    /// A value of a map is outside its range.
+    #[error("{map}: {field} is {value}, but must be {bound}")]
+    Map {
+        /// The file, or which map it is.
+        map: String,
+        /// What of it.
+        field: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is allowed.
+        bound: &'static str,
+    },
+    /// A pixel of a map is outside its range.
+    #[error("{map}: {field} at pixel ({}, {}) is {value}, but must be {bound}", pixel[0], pixel[1])]
+    MapPixel {
+        /// The file, or which map it is.
+        map: String,
+        /// What of it.
+        field: &'static str,
+        /// Column and row.
+        pixel: [u32; 2],
+        /// What was given.
+        value: f64,
+        /// What is allowed.
+        bound: &'static str,
+    },
+    /// A map's file cannot be used.
+    #[error("{map}: {reason}")]
+    MapFile {
+        /// The file.
+        map: String,
+        /// Why.
+        reason: String,
+    },
+    /// A grid with `feed` that cannot be fed.
+    #[error("a grid can be fed only {0}")]
+    Feed(&'static str),
     /// The ambient sea was refused.
     #[error(transparent)]
     Ocean(#[from] ocean_spectrum::OceanError),

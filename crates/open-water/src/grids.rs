@@ -2,10 +2,14 @@
 //!
 //! Stepping is `wave-grid`'s; this decides around what a window stays and whose waves are whose.
 
-use glam::{DVec2, Vec2, Vec3};
-use slotmap::SlotMap;
-use wave_grid::{GridSample, Source, WaveGrid, Window};
+use std::sync::Arc;
 
+use glam::{DVec2, Vec2, Vec3};
+use ocean_spectrum::Ocean;
+use slotmap::SlotMap;
+use wave_grid::{GridSample, Medium, Source, WaveGrid, Window};
+
+use crate::land::Feeding;
 use crate::{Follow, GridDesc, GridHome, GridId, OpenWaterError};
 
 /// Most grids that a water may hold: all of them are drawn.
@@ -17,6 +21,8 @@ pub(crate) struct Grid {
     pub(crate) sim: Sim,
     /// Place in the pool of drawn heights, elements.
     pub(crate) base: u32,
+    /// How the ambient sea comes in.
+    pub(crate) feeding: Option<Feeding>,
 }
 
 /// Where a grid's state is.
@@ -62,12 +68,34 @@ impl Grid {
         }
     }
 
-    fn tick(&mut self) {
+    /// One tick that begins at `time` seconds.
+    fn tick(&mut self, ocean: Option<&Ocean>, time: f64) {
         match &mut self.sim {
-            Sim::Cpu(grid) => grid.tick(),
+            Sim::Cpu(grid) => match (&mut self.feeding, ocean) {
+                (Some(feeding), Some(ocean)) => feeding.tick(grid, ocean, time),
+                _ => grid.tick(),
+            },
             // All of these tick at once: see `RemoteGrids::tick`.
             #[cfg(feature = "gpu")]
             Sim::Gpu(_) => {}
+        }
+    }
+
+    /// What its waves travel through.
+    pub(crate) fn set_medium(&mut self, medium: Option<Arc<dyn Medium>>) {
+        match &mut self.sim {
+            Sim::Cpu(grid) => grid.set_medium(medium),
+            // All of these share one: see `RemoteGrids::set_medium`.
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(_) => {}
+        }
+    }
+
+    /// The grid itself, when the ambient sea is fed into it.
+    pub(crate) fn fed(&self) -> Option<&WaveGrid> {
+        match &self.sim {
+            Sim::Cpu(grid) if self.desc.feed.any() => Some(grid),
+            _ => None,
         }
     }
 
@@ -110,7 +138,6 @@ impl Grids {
         self.list.iter()
     }
 
-    #[cfg(feature = "gpu")]
     pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Grid> {
         self.list.iter_mut()
     }
@@ -129,7 +156,7 @@ impl Grids {
             return Err(OpenWaterError::InvalidValue { field: "grids", value, bound: "at most 32" });
         }
         let id = self.ids.insert(());
-        self.list.push(Grid { id, desc, sim, base: 0 });
+        self.list.push(Grid { id, desc, sim, base: 0, feeding: None });
         self.place();
         Ok(id)
     }
@@ -175,8 +202,8 @@ impl Grids {
         self.get(id).is_ok_and(|grid| grid.desc.follow == Follow::Body(body))
     }
 
-    /// Moves the windows after what they follow and runs one tick of each.
-    pub(crate) fn tick(&mut self, place_of: impl Fn(crate::BodyId) -> Option<Vec3>) {
+    /// Moves the windows after what they follow and runs one tick of each, beginning at `time` seconds.
+    pub(crate) fn tick(&mut self, ocean: Option<&Ocean>, time: f64, place_of: impl Fn(crate::BodyId) -> Option<Vec3>) {
         for grid in &mut self.list {
             let target = match grid.desc.follow {
                 Follow::Fixed(place) => Some(place),
@@ -185,7 +212,7 @@ impl Grids {
             if let Some(target) = target {
                 grid.center_on(target);
             }
-            grid.tick();
+            grid.tick(ocean, time);
         }
     }
 }

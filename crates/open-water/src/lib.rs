@@ -38,11 +38,13 @@ mod error;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod grids;
+mod land;
 mod moorings;
 mod plan;
 mod planner;
 #[cfg(feature = "rapier")]
 pub mod rapier;
+mod shore;
 mod store;
 mod water;
 
@@ -52,13 +54,15 @@ pub use cpu::surface::WaterSample;
 pub use desc::{Consumers, Follow, GridDesc, GridHome, OpenWaterDesc, Preset, View};
 pub use error::OpenWaterError;
 pub use grids::MAX_GRIDS;
+pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shelter};
 pub use moorings::Mooring;
 pub use plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
 pub use store::{BodyId, BodyMotion, BodyStates, BodyStore, GridId, MooringId, Wants};
 pub use water::{OpenWater, Reports};
 
 pub use floating_body::{
-    Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, HullKind, Inertia, MooringLine, Radiation, TriMesh, Wrench,
+    Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, HullKind, Inertia, MooringLine, Radiation, TriMesh,
+    Wrench,
 };
 pub use ocean_spectrum::{CascadeDesc, Ocean, Partition, SeaState, Spectrum, Spreading};
-pub use wave_grid::{Scheme, WaveGrid};
+pub use wave_grid::{Edges, Scheme, WaveGrid};

@@ -5,6 +5,7 @@
 use std::fmt;
 
 use crate::GridId;
+use crate::shore::ShoreMark;
 
 /// A piece of GPU work of a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,6 +103,7 @@ pub struct FramePlan {
     /// What will not.
     pub skipped: Vec<Skipped>,
     pub(crate) dispatches: u32,
+    pub(crate) shore: ShoreMark,
 }
 
 impl FramePlan {

@@ -3,6 +3,7 @@
 use crate::desc::{Consumers, View};
 use crate::grids::{Grid, Sim};
 use crate::plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
+use crate::shore::ShoreMark;
 use crate::water::OpenWater;
 
 /// What the GPU holds after the last `encode`, so that it is not made again.
@@ -14,6 +15,8 @@ pub(crate) struct Shown {
     pub(crate) grids: Option<(u64, f32)>,
     /// Grids in the table.
     pub(crate) listed: usize,
+    /// Land and level in the table.
+    pub(crate) shore: ShoreMark,
 }
 
 /// What the planner must know of the GPU.
@@ -39,8 +42,12 @@ impl OpenWater {
         }
         #[cfg(feature = "gpu")]
         self.plan_remote(&mut plan);
+        plan.shore = self.shore.mark();
         let awake = self.grids.iter().filter(|grid| grid.is_awake()).count();
-        if facts.present && !nobody && (!plan.work.is_empty() || awake != facts.shown.listed) {
+        if facts.present
+            && !nobody
+            && (!plan.work.is_empty() || awake != facts.shown.listed || plan.shore != facts.shown.shore)
+        {
             plan.work.insert(0, Work::Table);
         }
         plan

@@ -9,9 +9,10 @@ use crate::OpenWaterError;
 use crate::bodies::{Bodies, Pose};
 use crate::clock::{Clock, Tick, Ticks};
 use crate::cpu::surface::{Composite, WaterSample};
-use crate::desc::{GridDesc, GridHome, OpenWaterDesc};
+use crate::desc::{Follow, GridDesc, GridHome, OpenWaterDesc};
 use crate::grids::{Grids, Sim};
 use crate::moorings::{Mooring, Moorings};
+use crate::shore::Shore;
 use crate::store::{BodyId, BodyStore, GridId, MooringId};
 
 /// What went out of the ordinary since the start; nothing of it is an error.
@@ -37,6 +38,7 @@ pub struct OpenWater {
     pub(crate) bodies: Bodies,
     pub(crate) moorings: Moorings,
     pub(crate) reports: Reports,
+    pub(crate) shore: Shore,
     #[cfg(feature = "gpu")]
     pub(crate) gpu: Option<crate::gpu::Gpu>,
 }
@@ -58,6 +60,7 @@ impl OpenWater {
             bodies: Bodies::default(),
             moorings: Moorings::default(),
             reports: Reports::default(),
+            shore: Shore::default(),
             desc,
             #[cfg(feature = "gpu")]
             gpu: None,
@@ -149,9 +152,10 @@ impl OpenWater {
     /// # Errors
     /// A value of the description is out of its range or its scheme unstable; too many grids; a GPU home without a GPU.
     pub fn add_grid(&mut self, desc: GridDesc) -> Result<GridId, OpenWaterError> {
+        desc.check_home()?;
         let grid = desc.wave_grid(self.clock.dt());
         let sim = match desc.home {
-            GridHome::Cpu => Sim::Cpu(Box::new(WaveGrid::new(grid)?)),
+            GridHome::Cpu => Sim::Cpu(Box::new(self.cpu_grid(&desc, grid)?)),
             #[cfg(feature = "gpu")]
             GridHome::Gpu => {
                 let gpu = self.gpu.as_mut().ok_or(OpenWaterError::NoGpu)?;
@@ -160,12 +164,29 @@ impl OpenWater {
             #[cfg(not(feature = "gpu"))]
             GridHome::Gpu => return Err(OpenWaterError::NoGpu),
         };
+        let fed = desc.feed.any();
         let id = self.grids.insert(desc, sim)?;
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
             gpu.resize_pool(self.grids.pool_cells());
         }
+        if fed {
+            self.rebuild_shore(self.shore.terrain.clone())?;
+        }
         Ok(id)
+    }
+
+    fn cpu_grid(&self, desc: &GridDesc, grid: wave_grid::GridDesc) -> Result<WaveGrid, OpenWaterError> {
+        let mut grid = WaveGrid::new(grid)?;
+        if let Follow::Fixed(place) = desc.follow {
+            grid.center_on(place);
+        }
+        if desc.feed.any() {
+            grid.set_feed(desc.feed);
+            self.check_feed(desc, &grid)?;
+        }
+        grid.set_medium(self.shore.medium());
+        Ok(grid)
     }
 
     /// Removes a grid and its waves.
@@ -173,13 +194,16 @@ impl OpenWater {
     /// # Errors
     /// There is no such grid.
     pub fn remove_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
-        let _removed = self.grids.remove(id)?;
+        let removed = self.grids.remove(id)?;
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
-            if let Sim::Gpu(grid) = _removed.sim {
+            if let Sim::Gpu(grid) = removed.sim {
                 gpu.remote.remove(grid.id);
             }
             gpu.resize_pool(self.grids.pool_cells());
+        }
+        if removed.desc.feed.any() {
+            self.rebuild_shore(self.shore.terrain.clone())?;
         }
         Ok(())
     }
@@ -215,12 +239,13 @@ impl OpenWater {
             return Err(OpenWaterError::TickOutOfOrder { expected, found: tick.index });
         }
         if self.bodies.read(store, tick.dt, &mut self.reports) {
-            self.bodies.step(tick.dt, self.ocean.as_ref(), &self.grids);
+            self.bodies.step(tick.dt, Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore });
             self.bodies.disturb(&mut self.grids);
             self.bodies.write(store);
         }
         let bodies = &self.bodies;
-        self.grids.tick(|id| bodies.place_of(id));
+        let start = self.tick as f64 * f64::from(tick.dt);
+        self.grids.tick(self.ocean.as_ref(), start, |id| bodies.place_of(id));
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
             gpu.remote.tick(&mut self.grids);
@@ -236,7 +261,7 @@ impl OpenWater {
     /// The water at local positions (x, z) after the last tick, at once: as many answers as the shorter slice holds.
     /// The horizontal displacement is inverted, all grids are included. Calm water for points that are not finite.
     pub fn sample(&self, points: &[Vec2], out: &mut [WaterSample]) {
-        Composite { ocean: self.ocean.as_ref(), grids: &self.grids }.surface_at(points, out);
+        Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore }.surface_at(points, out);
     }
 
     /// The ambient sea; `None` when it is calm.
@@ -258,6 +283,11 @@ impl OpenWater {
     /// How many bodies there are.
     pub fn body_count(&self) -> usize {
         self.bodies.len()
+    }
+
+    /// How many grids there are.
+    pub fn grid_count(&self) -> usize {
+        self.grids.iter().len()
     }
 
     /// What went out of the ordinary since the start.

@@ -9,6 +9,7 @@ use ocean_spectrum::{Ocean, OceanSample};
 use wave_grid::GridSample;
 
 use crate::grids::{Grid, Grids};
+use crate::shore::Shore;
 use crate::store::GridId;
 
 /// Points answered at a time, on the stack.
@@ -25,19 +26,26 @@ pub struct WaterSample {
     pub velocity: Vec3,
     /// Whether the surface folds over itself there, so that the answer is one of several.
     pub folded: bool,
+    /// Whether there is water: false on dry land and where the land says so.
+    pub wet: bool,
 }
 
 impl Default for WaterSample {
     /// Calm water.
     fn default() -> Self {
-        Self { height: 0.0, normal: Vec3::Y, velocity: Vec3::ZERO, folded: false }
+        Self { height: 0.0, normal: Vec3::Y, velocity: Vec3::ZERO, folded: false, wet: true }
     }
 }
 
+/// Height of the water that a body finds where there is none: far below everything.
+const NO_WATER: f32 = -1000.0;
+
 /// What all waters are made of, as one state.
+#[derive(Clone, Copy)]
 pub(crate) struct Composite<'a> {
     pub(crate) ocean: Option<&'a Ocean>,
     pub(crate) grids: &'a Grids,
+    pub(crate) shore: &'a Shore,
 }
 
 impl Composite<'_> {
@@ -59,12 +67,13 @@ impl Composite<'_> {
             for grid in self.grids.iter() {
                 add(grid, points, &mut sum[..n]);
             }
-            for ((out, a), g) in out.iter_mut().zip(&ambient).zip(&sum[..n]) {
+            for (((out, a), g), point) in out.iter_mut().zip(&ambient).zip(&sum[..n]).zip(points) {
                 *out = WaterSample {
-                    height: a.height + g.height,
+                    height: self.shore.level + a.height + g.height,
                     normal: tilt(a.normal, g.slope),
                     velocity: a.velocity + Vec3::Y * g.vertical_velocity,
                     folded: a.folded,
+                    wet: !self.shore.is_dry(*point),
                 };
             }
         }
@@ -104,9 +113,10 @@ pub(crate) struct BodyWater<'a> {
 }
 
 impl BodyWater<'_> {
+    /// A body that makes no waves has none of its own to tell apart.
     fn others_and_own(&self, points: &[Vec2], others: &mut [GridSample], own: &mut [GridSample]) {
         for grid in self.water.grids.iter() {
-            let sum = if Some(grid.id) == self.home { &mut *own } else { &mut *others };
+            let sum = if self.disturbs && Some(grid.id) == self.home { &mut *own } else { &mut *others };
             add(grid, points, sum);
         }
     }
@@ -123,16 +133,21 @@ impl WaterSurface for BodyWater<'_> {
             let mut own = [GridSample::default(); BATCH];
             self.others_and_own(points, &mut others[..n], &mut own[..n]);
             let k = self.water.ocean.map_or(0.0, Ocean::peak_wavenumber);
+            let level = self.water.shore.level;
             for (i, out) in out[..n].iter_mut().enumerate() {
                 let (a, g) = (&ambient[i], &others[i]);
+                if self.water.shore.is_kept_dry(points[i]) {
+                    *out = SurfaceSample { height: NO_WATER, level: NO_WATER, ..SurfaceSample::CALM };
+                    continue;
+                }
                 *out = SurfaceSample {
-                    height: a.height + g.height,
+                    height: level + a.height + g.height,
+                    level,
                     own: own[i].height,
                     normal: tilt(a.normal, g.slope),
                     velocity: a.velocity + Vec3::Y * g.vertical_velocity,
                     acceleration: a.vertical_acceleration,
                     decay_wavenumber: k,
-                    level: 0.0,
                 };
             }
         }
@@ -140,27 +155,31 @@ impl WaterSurface for BodyWater<'_> {
 
     fn home(&self) -> Home {
         match self.home {
-            None => Home::None,
-            Some(_) if self.alone => Home::Own,
-            Some(_) => Home::Shared,
+            Some(_) if self.disturbs && self.alone => Home::Own,
+            Some(_) if self.disturbs => Home::Shared,
+            _ => Home::None,
         }
     }
 
     fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch {
+        if self.water.shore.is_kept_dry(center) {
+            return SurfacePatch { height: NO_WATER, level: NO_WATER, ..SurfacePatch::default() };
+        }
+        let level = self.water.shore.level;
         let a = self.water.ocean.map_or_else(Default::default, |ocean| ocean.patch(center, radius));
         let mut others = [GridSample::default()];
         let mut own = [GridSample::default()];
         self.others_and_own(&[center], &mut others, &mut own);
         SurfacePatch {
-            height: a.height + others[0].height,
+            height: level + a.height + others[0].height,
+            level,
             gradient: a.gradient + others[0].slope,
             own: own[0].height,
             // What a body displaces is measured with this slope: it must hold none of its own waves.
-            own_gradient: if self.disturbs { Vec2::ZERO } else { own[0].slope },
+            own_gradient: Vec2::ZERO,
             velocity: a.velocity + Vec3::Y * others[0].vertical_velocity,
             acceleration: a.vertical_acceleration,
             decay_wavenumber: a.decay_wavenumber,
-            level: 0.0,
         }
     }
 }

@@ -19,7 +19,8 @@ impl Gpu {
             match *work {
                 Work::Table => {
                     self.shown.listed = grids.iter().filter(|grid| grid.is_awake()).count();
-                    self.surface.write_table(&self.queue, plan.time, ocean, grids.iter(), 0.0);
+                    self.shown.shore = plan.shore;
+                    self.surface.write_table(&self.queue, plan.time, ocean, grids.iter(), plan.shore.level);
                 }
                 Work::GridUpload { grid, .. } => {
                     if let Some(grid) = grids.get_mut(grid) {

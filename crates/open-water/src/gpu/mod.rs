@@ -89,7 +89,7 @@ fn check_limits(found: &wgpu::Limits) -> Result<(), OpenWaterError> {
             needed.max_compute_workgroup_storage_size,
         ),
         ("max_bind_groups", found.max_bind_groups, 2),
-        ("max_texture_dimension_2d", found.max_texture_dimension_2d, 1024),
+        ("max_texture_dimension_2d", found.max_texture_dimension_2d, 2048),
     ];
     for (limit, found, needed) in pairs {
         if found < needed {

@@ -1,0 +1,196 @@
+//! Land and water level of an [`OpenWater`]: what changes when they do, and questions about them.
+
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+use ocean_spectrum::AmplitudeMap;
+use wave_grid::{Medium, WaveGrid};
+
+use crate::cpu::surface::WaterSample;
+use crate::land::{Baked, Carrier, Feeding, Land, Terrain, bake};
+use crate::water::OpenWater;
+use crate::{Follow, GridDesc, GridHome, OpenWaterError};
+
+/// The maps follow the water level when it has moved this far, metres.
+const LEVEL_STEP: f32 = 0.05;
+/// Largest water level in either direction, metres.
+const HIGHEST: f32 = 1000.0;
+
+/// Land and water level.
+#[derive(Default)]
+pub(crate) struct Shore {
+    /// Water level above the datum, metres.
+    pub(crate) level: f32,
+    /// The land at the level for which the maps were made.
+    pub(crate) terrain: Option<Terrain>,
+    pub(crate) baked: Baked,
+    /// How often the maps were made.
+    revision: u64,
+}
+
+/// Tells one state of the shore from another.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ShoreMark {
+    pub(crate) level: f32,
+    revision: u64,
+}
+
+impl OpenWater {
+    /// Puts land under and around the water, replaces it, or takes it away; while running, too. Waves where a wall comes
+    /// to stand are let go.
+    ///
+    /// # Errors
+    /// A map is out of its range (the error names pixel, value and bound), a fed grid does not lie on the new map, or there is a
+    /// fed grid and the land is taken away; then nothing was changed.
+    pub fn set_land(&mut self, land: Option<Land>) -> Result<(), OpenWaterError> {
+        let terrain = land.map(|land| Terrain::new(land, self.shore.level)).transpose()?;
+        self.check_carriers(terrain.as_ref())?;
+        self.rebuild_shore(terrain)
+    }
+
+    /// The land as it was given.
+    pub fn land(&self) -> Option<&Land> {
+        self.shore.terrain.as_ref().map(Terrain::land)
+    }
+
+    /// Raises or lowers the still water to `level` metres above the datum, within 1000 m: tides, floods, locks. Surfaces and bodies follow
+    /// at once, the maps of the land in steps of 5 cm.
+    ///
+    /// # Errors
+    /// The level is not finite or beyond its bound; then nothing was changed.
+    pub fn set_level(&mut self, level: f32) -> Result<(), OpenWaterError> {
+        if level.is_nan() || level.abs() > HIGHEST {
+            let value = level.into();
+            return Err(OpenWaterError::InvalidValue { field: "level", value, bound: "within 1000 m" });
+        }
+        self.shore.level = level;
+        match &self.shore.terrain {
+            Some(terrain) if (terrain.level - level).abs() >= LEVEL_STEP => {
+                let terrain = terrain.at_level(level);
+                self.rebuild_shore(Some(terrain))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Water level above the datum, metres.
+    pub fn level(&self) -> f32 {
+        self.shore.level
+    }
+
+    /// Whether a local point is under water after the last tick: below the surface, above the bed, and not where there is no water.
+    /// False for a point that is not finite.
+    pub fn is_underwater(&self, point: Vec3) -> bool {
+        if !point.is_finite() {
+            return false;
+        }
+        let at = Vec2::new(point.x, point.z);
+        let mut sample = [WaterSample::default()];
+        self.sample(&[at], &mut sample);
+        let above_bed = self.shore.terrain.as_ref().is_none_or(|t| point.y >= t.bed().elevation(at.as_dvec2()));
+        sample[0].wet && point.y < sample[0].height && above_bed
+    }
+
+    /// Whether a grid may be fed; `grid` is where it will be.
+    pub(crate) fn check_feed(&self, desc: &GridDesc, grid: &WaveGrid) -> Result<(), OpenWaterError> {
+        if !matches!(desc.follow, Follow::Fixed(_)) {
+            return Err(OpenWaterError::Feed("when it stays in a place: `Follow::Fixed`"));
+        }
+        let Some(terrain) = &self.shore.terrain else {
+            return Err(OpenWaterError::Feed("on land: call `OpenWater::set_land` before"));
+        };
+        self.carrier(grid).check(terrain)
+    }
+
+    fn carrier<'a>(&self, grid: &'a WaveGrid) -> Carrier<'a> {
+        let capacity = |ocean| Carrier::capacity(ocean, grid.desc().cell_size);
+        // On a calm sea there is nothing to carry, which is no error.
+        Carrier { grid, cascades: self.ocean.as_ref().map_or(1, capacity) }
+    }
+
+    fn check_carriers(&self, terrain: Option<&Terrain>) -> Result<(), OpenWaterError> {
+        for grid in self.grids.iter().filter_map(|grid| grid.fed()) {
+            match terrain {
+                Some(terrain) => self.carrier(grid).check(terrain)?,
+                None => return Err(OpenWaterError::Feed("on land: remove it before the land")),
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes all maps anew and hands them to whoever reads them.
+    pub(crate) fn rebuild_shore(&mut self, terrain: Option<Terrain>) -> Result<(), OpenWaterError> {
+        let medium = medium(terrain.as_ref());
+        for grid in self.grids.iter_mut() {
+            grid.set_medium(medium.clone());
+        }
+        let carriers: Vec<_> = self.grids.iter().filter_map(|grid| grid.fed()).map(|grid| self.carrier(grid)).collect();
+        let baked = terrain.as_ref().map(|t| bake(t, self.ocean.as_ref(), &carriers)).unwrap_or_default();
+        let feedings = self.feedings(terrain.as_ref(), &carriers, &baked)?;
+        for (grid, feeding) in self.grids.iter_mut().filter(|grid| grid.fed().is_some()).zip(feedings) {
+            grid.feeding = Some(feeding);
+        }
+        if let Some(ocean) = &mut self.ocean {
+            let map = terrain.as_ref().map(|t| {
+                let bed = t.bed();
+                AmplitudeMap::new(bed.corner(), bed.texel(), bed.size(), baked.factors.clone()).map(Arc::new)
+            });
+            ocean.set_amplitudes(map.transpose()?);
+        }
+        #[cfg(feature = "gpu")]
+        if let Some(gpu) = &mut self.gpu {
+            gpu.set_land(terrain.as_ref().map(|terrain| baked.texels(terrain.bed())).as_ref())?;
+        }
+        self.shore.terrain = terrain;
+        self.shore.baked = baked;
+        self.shore.revision += 1;
+        Ok(())
+    }
+
+    fn feedings(
+        &self,
+        terrain: Option<&Terrain>,
+        carriers: &[Carrier],
+        baked: &Baked,
+    ) -> Result<Vec<Feeding>, OpenWaterError> {
+        let (Some(terrain), Some(ocean)) = (terrain, &self.ocean) else { return Ok(Vec::new()) };
+        carriers.iter().map(|c| Feeding::new(c.grid, ocean, c.cascades, terrain, baked)).collect()
+    }
+}
+
+fn medium(terrain: Option<&Terrain>) -> Option<Arc<dyn Medium>> {
+    terrain.map(|terrain| Arc::new(terrain.clone()) as Arc<dyn Medium>)
+}
+
+impl Shore {
+    pub(crate) fn mark(&self) -> ShoreMark {
+        ShoreMark { level: self.level, revision: self.revision }
+    }
+
+    /// What grids read.
+    pub(crate) fn medium(&self) -> Option<Arc<dyn Medium>> {
+        medium(self.terrain.as_ref())
+    }
+
+    /// Whether land or no-water outlines leave a place (local x, z) without water.
+    pub(crate) fn is_dry(&self, point: Vec2) -> bool {
+        let Some(terrain) = &self.terrain else { return false };
+        let place = point.as_dvec2();
+        self.level <= terrain.bed().elevation(place) || terrain.is_kept_dry(place)
+    }
+
+    /// Whether a place (local x, z) is inside a no-water outline.
+    pub(crate) fn is_kept_dry(&self, point: Vec2) -> bool {
+        self.terrain.as_ref().is_some_and(|terrain| terrain.is_kept_dry(point.as_dvec2()))
+    }
+}
+
+impl GridDesc {
+    /// Refuses a feed that no home can give.
+    pub(crate) fn check_home(&self) -> Result<(), OpenWaterError> {
+        if self.feed.any() && self.home == GridHome::Gpu {
+            return Err(OpenWaterError::Feed("when it is homed on the CPU: `GridHome::Cpu`"));
+        }
+        Ok(())
+    }
+}
