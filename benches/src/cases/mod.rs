@@ -6,6 +6,7 @@ mod facade;
 mod grid_border;
 mod grid_phase;
 mod grid_step;
+mod harbour;
 mod ocean_fft;
 mod ocean_gpu;
 mod ocean_height;
@@ -27,6 +28,8 @@ pub const CASES: &[Case] = &[
     body_float::TICK,
     facade::GPU_VS_CPU,
     facade::BODIES_EQUAL,
+    harbour::SEAM,
+    harbour::BASIN,
     energy::ENERGY,
     facade::EMPTY,
     facade::TICK,
