@@ -1,5 +1,7 @@
 //! The façade on a device: the composite surface against its CPU twin, and what a frame runs.
 
+mod land;
+
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Consumers, Controls, Follow, FramePlan, GridDesc, GridHome, Hull,
