@@ -1,8 +1,9 @@
 //! Passes of the grids: `grid_prepare` moves the window, remembers the last tick and adds sources, `grid_step` advances
-//! one sub-step, `grid_draw` writes what is drawn.
+//! one sub-step, `grid_draw` writes what is drawn; `grid_medium` stores what the water lies in where it is not plain.
 //!
 //! A grid's cells stand on a torus: world cell c is stored at c mod torus, so a window that shifts copies nothing. All
-//! grids share two buffers, heights (z, z, previous, foam) and memory (phi_x, phi_x, phi_z, phi_z). All tiles of 16 x 16
+//! grids share three buffers, heights (z, z, previous, foam), memory (phi_x, phi_x, phi_z, phi_z) and medium (a, r; empty
+//! while all grids lie in plain water). All tiles of 16 x 16
 //! cells that are to be stepped stand in one list; a workgroup takes one tile, a thread four cells of a row.
 //!
 //! Choices are made by `override` constants and `select`, not by branches: a software adapter runs both sides of a
@@ -24,6 +25,12 @@ pub const HEIGHT_LIMIT: f32 = 100.0;
 pub const TINY: f32 = 1e-20;
 /// Arrays of the heights buffer and of the memory buffer, per grid.
 pub const ARRAYS: u32 = 4;
+/// Arrays of the medium buffer, per grid.
+pub const MEDIUM_ARRAYS: u32 = 2;
+/// Threads of `grid_medium`, a cell each.
+pub const MEDIUM_THREADS: u32 = 64;
+/// [`GridDraw::medium`] of a grid that lies in plain water.
+pub const NO_MEDIUM: u32 = u32::MAX;
 
 /// [`GridParams::moved`]: the window stands.
 pub const STOOD: u32 = 0;
@@ -72,8 +79,14 @@ pub struct GridParams {
     pub foam_growth: f32,
     /// Foam: factor left after a tick.
     pub foam_keep: f32,
+    /// a of deep water.
+    pub deep: f32,
+    /// Foam over a bed: height at which waves of deep water's a begin to break, metres.
+    pub foam_depth: f32,
+    /// Foam at walls: full rate per metre of rise in a sub-step.
+    pub foam_splash: f32,
     /// Padding.
-    pub pad: u32,
+    pub pad: [u32; 2],
 }
 
 /// The grids of one tick, those with the most sub-steps first.
@@ -89,6 +102,20 @@ pub struct GridTile {
     pub first_source: u32,
     /// How many.
     pub source_count: u32,
+    /// 1 where the medium is to be looked at.
+    pub mixed: u32,
+}
+
+/// What a cell lies in, as uploaded.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct GridCell {
+    /// Cell on the torus, row-major, and its grid's place in [`TickParams`]: cell + 2^24 grid.
+    pub place: u32,
+    /// (c dt / h)^2; at most 0 for a wall, 0 for one beside water.
+    pub a: f32,
+    /// 1 / (1 + sigma dt / 2); 0 for what is not open water.
+    pub r: f32,
     /// Padding.
     pub pad: u32,
 }
@@ -117,8 +144,10 @@ pub struct GridDispatch {
     pub first: u32,
     /// Sub-step within the tick.
     pub substep: u32,
+    /// Cells of the list, for `grid_medium`, whose `first` is the first of them.
+    pub count: u32,
     /// Padding.
-    pub pad: [u32; 2],
+    pub pad: u32,
 }
 
 /// A grid to be drawn.
@@ -147,6 +176,10 @@ pub struct GridDraw {
     pub foam: u32,
     /// First element in the pool.
     pub out: u32,
+    /// First `f32` of its a in the medium, or [`NO_MEDIUM`].
+    pub medium: u32,
+    /// Padding.
+    pub pad: [u32; 3],
 }
 
 const PARAMS: &[crate::ParamLayout] = &[
@@ -169,32 +202,61 @@ const PARAMS: &[crate::ParamLayout] = &[
         foam_onset,
         foam_growth,
         foam_keep,
+        deep,
+        foam_depth,
+        foam_splash,
         pad
     }),
     param_layout!(GridSource { center, outer, height, foam, pad }),
-    param_layout!(GridDispatch { first, substep }),
+    param_layout!(GridDispatch { first, substep, count, pad }),
+    param_layout!(GridCell { place, a, r, pad }),
 ];
 
-const DRAW_PARAMS: &[crate::ParamLayout] =
-    &[param_layout!(GridDraw { corner, cells, torus, middle, outer, width, alpha, now, previous, foam, out })];
+const DRAW_PARAMS: &[crate::ParamLayout] = &[param_layout!(GridDraw {
+    corner,
+    cells,
+    torus,
+    middle,
+    outer,
+    width,
+    alpha,
+    now,
+    previous,
+    foam,
+    out,
+    medium,
+    pad
+})];
 
 fn constants() -> String {
     format!(
         "const TILE: u32 = {TILE}u;\nconst TILE_THREADS: u32 = {TILE_THREADS}u;\n\
          const HEIGHT_LIMIT: f32 = {HEIGHT_LIMIT:?};\nconst TINY: f32 = {TINY:?};\n\
-         const MAX_GRIDS: u32 = {MAX_GRIDS}u;\n\
+         const MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst MEDIUM_THREADS: u32 = {MEDIUM_THREADS}u;\n\
          const SHIFTED: u32 = {SHIFTED}u;\nconst CLEARED: u32 = {CLEARED}u;\n"
     )
 }
 
 fn draw_constants() -> String {
-    format!("const DRAW_THREADS: u32 = {DRAW_THREADS}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\n")
+    format!(
+        "const DRAW_THREADS: u32 = {DRAW_THREADS}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\n\
+         const NO_MEDIUM: u32 = {NO_MEDIUM}u;\n"
+    )
 }
 
 const SHARED: &str = include_str!("../wgsl/shared/grid.wgsl");
 
+/// Stores the medium of listed cells, and stills those that are not open water.
+pub const MEDIUM: Pass = Pass {
+    name: "grid_medium",
+    constants,
+    parts: &[SHARED, include_str!("../wgsl/grid_medium.wgsl")],
+    entry_points: &["grid_medium"],
+    params: PARAMS,
+};
+
 /// Moves the window, keeps the last tick's heights, adds sources. `override MOVED` tells whether a grid among those covered
-/// moved.
+/// moved, `override MEDIUM` whether a tile among them is mixed.
 pub const PREPARE: Pass = Pass {
     name: "grid_prepare",
     constants,
@@ -204,16 +266,16 @@ pub const PREPARE: Pass = Pass {
 };
 
 /// One sub-step. `override LAYER` tells whether the tiles may have cells of the layer, `override LAST` whether it may
-/// be a covered grid's last.
+/// be a covered grid's last, `override MIXED` whether the medium varies in them.
 pub const STEP: Pass = Pass {
     name: "grid_step",
     constants,
-    parts: &[SHARED, include_str!("../wgsl/grid_step.wgsl")],
+    parts: &[SHARED, include_str!("../wgsl/shared/grid_flux.wgsl"), include_str!("../wgsl/grid_step.wgsl")],
     entry_points: &["grid_step"],
     params: PARAMS,
 };
 
-/// Height and foam as drawn.
+/// Height and foam as drawn. `override MEDIUM` tells whether a grid among them has walls.
 pub const DRAW: Pass = Pass {
     name: "grid_draw",
     constants: draw_constants,
@@ -223,4 +285,4 @@ pub const DRAW: Pass = Pass {
 };
 
 /// The passes of this area.
-pub const PASSES: &[Pass] = &[PREPARE, STEP, DRAW];
+pub const PASSES: &[Pass] = &[MEDIUM, PREPARE, STEP, DRAW];

@@ -1,6 +1,7 @@
 // The start of a tick: what entered the window is calm, the heights of the last tick are kept for drawing, sources are
 // written into z and z_old. Each thread touches its own four cells only.
 override MOVED: bool = true;
+override MEDIUM: bool = true;
 
 @compute @workgroup_size(TILE_THREADS)
 fn grid_prepare(
@@ -44,8 +45,13 @@ fn grid_prepare(
     }
     grid_heights[first + 2u * stride] = now;
 
-    let inside = (at.i < vec4<u32>(cells.x)) & vec4<bool>(at.j < cells.y);
-    let sources = grid_tiles[grid_dispatch.first + group.x].yz;
+    var inside = (at.i < vec4<u32>(cells.x)) & vec4<bool>(at.j < cells.y);
+    let sources = grid_tiles[grid_dispatch.first + group.x].yzw;
+    if MEDIUM {
+        // Sources are written into open water only.
+        let r = grid_ground[(*grid).base / 2u + stride + offset];
+        inside = inside & (vec4<bool>(sources.z == 0u) | (r > vec4<f32>(0.0)));
+    }
     for (var s = sources.x; s < sources.x + sources.y; s++) {
         let source = grid_sources[s];
         let dx = vec4<f32>(at.i) + 0.5 - source.center.x;

@@ -1,19 +1,22 @@
 // One sub-step in place over the older heights; see kernels.rs of wave-grid for the formulas. The layer keeps phi on the
 // edges before each cell; each cell recomputes the phi of the edges after it. Tiles without a cell of the layer have a
-// pipeline of their own.
+// pipeline of their own, and so have those where the medium varies.
 override LAYER: bool = true;
 override LAST: bool = true;
-
-struct Row {
-    west: vec4<f32>,
-    here: vec4<f32>,
-    east: vec4<f32>,
-}
+override MIXED: bool = true;
 
 fn read_row(first: u32, west: u32, here: u32, east: u32) -> Row {
     let w = grid_heights[first + west].w;
     let h = grid_heights[first + here];
     let e = grid_heights[first + east].x;
+    return Row(vec4<f32>(w, h.xyz), h, vec4<f32>(h.yzw, e));
+}
+
+// The same of a, which stands at `first` in the medium.
+fn read_ground(first: u32, west: u32, here: u32, east: u32) -> Row {
+    let w = grid_ground[first + west].w;
+    let h = grid_ground[first + here];
+    let e = grid_ground[first + east].x;
     return Row(vec4<f32>(w, h.xyz), h, vec4<f32>(h.yzw, e));
 }
 
@@ -32,6 +35,16 @@ fn layer_z(x: vec4<f32>, n: u32, thickness: u32, exponent: u32, peak: f32) -> ve
 fn next_phi(phi: vec4<f32>, e: vec4<f32>, z: vec4<f32>, flux: vec4<f32>) -> vec4<f32> {
     let gain = 1.0 / (1.0 + 0.5 * e);
     return (1.0 - 0.5 * e) * gain * phi + gain * (z - e) * flux;
+}
+
+// Waves high against the depth and water that rises fast at a wall break too; see foam.rs of wave-grid.
+fn foam_excess(
+    steep: vec4<f32>, z: vec4<f32>, next: vec4<f32>, a: Row, a_across: vec4<f32>, limit: f32, splash: f32,
+) -> vec4<f32> {
+    let high = 2.0 * z / (limit * select(vec4<f32>(1.0), a.here, a.here > vec4<f32>(0.0))) - 2.0;
+    let least = min(min(a.west, a.east), a_across);
+    let rise = select(abs(next - z) * splash - 1.0, vec4<f32>(0.0), least > vec4<f32>(0.0));
+    return clamp(max(max(high, rise), steep), vec4<f32>(0.0), vec4<f32>(1.0));
 }
 
 @compute @workgroup_size(TILE_THREADS)
@@ -62,20 +75,40 @@ fn grid_step(
     let z = c.here;
     let straight = (*grid).weights.x;
     let beside = (*grid).weights.y;
-    let damping = (*grid).damping;
     let cross = ((c.west - z) + (c.east - z)) + ((s.here - z) + (n.here - z));
 
+    // r = 1 / (1 + damping), and the faces' coefficients where they vary.
+    var r = vec4<f32>(1.0 / (1.0 + (*grid).damping));
+    var flux: Fluxes;
+    var faces: Fluxes;
+    var a_s: Row;
+    var a_c: Row;
+    var a_n: Row;
+    if MIXED {
+        let ground = (*grid).base / 2u;
+        a_s = read_ground(ground + south * columns, west, at.column, east);
+        a_c = read_ground(ground + at.row * columns, west, at.column, east);
+        a_n = read_ground(ground + north * columns, west, at.column, east);
+        r = grid_ground[ground + stride + offset];
+        faces = Fluxes(
+            face(a_c.west, a_c.here), face(a_c.here, a_c.east), face(a_s.here, a_c.here), face(a_c.here, a_n.here));
+        flux = mixed_fluxes(s, c, n, a_s, a_c, a_n, faces, (*grid).weights / (*grid).deep);
+    }
+    var next: vec4<f32>;
     if !LAYER {
-        let diagonal = ((s.west - z) + (s.east - z)) + ((n.west - z) + (n.east - z));
-        let scale = 1.0 / (1.0 + damping);
-        let change = (1.0 - damping) * scale * (z - old)
-            + (scale * (straight - 2.0 * beside) * cross + scale * 2.0 * beside * diagonal);
-        grid_heights[old_at] = flush(z + change);
+        var divergence: vec4<f32>;
+        if MIXED {
+            divergence = (flux.east - flux.west) + (flux.north - flux.south);
+        } else {
+            let diagonal = ((s.west - z) + (s.east - z)) + ((n.west - z) + (n.east - z));
+            divergence = (straight - 2.0 * beside) * cross + 2.0 * beside * diagonal;
+        }
+        next = flush(z + ((2.0 * r - 1.0) * (z - old) + r * divergence));
+        grid_heights[old_at] = next;
     } else {
-        let flux_w = straight * (z - c.west) + beside * ((n.here - n.west) + (s.here - s.west));
-        let flux_e = straight * (c.east - z) + beside * ((n.east - n.here) + (s.east - s.here));
-        let flux_s = straight * (z - s.here) + beside * ((c.east - s.east) + (c.west - s.west));
-        let flux_n = straight * (n.here - z) + beside * ((n.east - c.east) + (n.west - c.west));
+        if !MIXED {
+            flux = plain_fluxes(s, c, n, straight, beside);
+        }
         let w = (*grid).thickness;
         let x = vec4<f32>(at.i);
         let y = vec4<f32>(f32(at.j));
@@ -84,19 +117,26 @@ fn grid_step(
         let zi = layer_z(x, cells.x, w, power, peak);
         let zj = layer_z(y, cells.y, w, power, peak);
         let memory = (*grid).base + level * stride;
-        let px = grid_memory[memory + offset];
-        let px_east = vec4<f32>(px.yzw, grid_memory[memory + at.row * columns + east].x);
-        let pz = grid_memory[memory + 2u * stride + offset];
-        let pz_north = grid_memory[memory + 2u * stride + north * columns + at.column];
-        let phi_w = next_phi(px, layer_z(x - 0.5, cells.x, w, power, peak), zj, flux_w);
-        let phi_e = next_phi(px_east, layer_z(x + 0.5, cells.x, w, power, peak), zj, flux_e);
-        let phi_s = next_phi(pz, layer_z(y - 0.5, cells.y, w, power, peak), zi, flux_s);
-        let phi_n = next_phi(pz_north, layer_z(y + 0.5, cells.y, w, power, peak), zi, flux_n);
-        let plain = (flux_e - flux_w) + (flux_n - flux_s);
+        var px = grid_memory[memory + offset];
+        var px_east = vec4<f32>(px.yzw, grid_memory[memory + at.row * columns + east].x);
+        var pz = grid_memory[memory + 2u * stride + offset];
+        var pz_north = grid_memory[memory + 2u * stride + north * columns + at.column];
+        if MIXED {
+            // What a new wall cut off.
+            px = select(vec4<f32>(0.0), px, faces.west > vec4<f32>(0.0));
+            px_east = select(vec4<f32>(0.0), px_east, faces.east > vec4<f32>(0.0));
+            pz = select(vec4<f32>(0.0), pz, faces.south > vec4<f32>(0.0));
+            pz_north = select(vec4<f32>(0.0), pz_north, faces.north > vec4<f32>(0.0));
+        }
+        let phi_w = next_phi(px, layer_z(x - 0.5, cells.x, w, power, peak), zj, flux.west);
+        let phi_e = next_phi(px_east, layer_z(x + 0.5, cells.x, w, power, peak), zj, flux.east);
+        let phi_s = next_phi(pz, layer_z(y - 0.5, cells.y, w, power, peak), zi, flux.south);
+        let phi_n = next_phi(pz_north, layer_z(y + 0.5, cells.y, w, power, peak), zi, flux.north);
+        let plain = (flux.east - flux.west) + (flux.north - flux.south);
         let layer = ((phi_e + px_east) - (phi_w + px)) + ((phi_n + pz_north) - (phi_s + pz));
-        let scale = 1.0 / ((1.0 + 0.5 * zi) * (1.0 + 0.5 * zj) * (1.0 + damping));
-        let rate = (1.0 - damping) * (1.0 - 0.5 * zi) * (1.0 - 0.5 * zj);
-        let next = z + scale * (rate * (z - old) - zi * zj * z + (plain + 0.5 * layer));
+        let scale = 1.0 / ((1.0 + 0.5 * zi) * (1.0 + 0.5 * zj));
+        let rate = (2.0 * r - 1.0) * (1.0 - 0.5 * zi) * (1.0 - 0.5 * zj);
+        next = flush(z + scale * (rate * (z - old) + r * ((plain + 0.5 * layer) - zi * zj * z)));
         // The ring is zero; it stores the phi of the edges between itself and the last cells.
         let columns_open = (at.i > vec4<u32>(0u)) & (at.i + 1u < vec4<u32>(cells.x));
         let rows_open = at.j > 0u && at.j + 1u < cells.y;
@@ -105,16 +145,32 @@ fn grid_step(
         let next_memory = (*grid).base + (1u - level) * stride;
         grid_memory[next_memory + offset] = select(vec4<f32>(0.0), flush(phi_w), edge_x);
         grid_memory[next_memory + 2u * stride + offset] = select(vec4<f32>(0.0), flush(phi_s), edge_z);
-        grid_heights[old_at] = select(vec4<f32>(0.0), flush(next), columns_open & vec4<bool>(rows_open));
+        grid_heights[old_at] = select(vec4<f32>(0.0), next, columns_open & vec4<bool>(rows_open));
     }
 
     if LAST {
         let last = grid_dispatch.substep + 1u == (*grid).substeps;
         let foam_at = (*grid).base + 3u * stride + offset;
         let foam = grid_heights[foam_at];
-        let excess = clamp(-cross * (*grid).foam_scale - (*grid).foam_onset, vec4<f32>(0.0), vec4<f32>(1.0));
+        var bend = cross;
+        if MIXED {
+            bend = select(vec4<f32>(0.0), c.west - z, faces.west > vec4<f32>(0.0))
+                + select(vec4<f32>(0.0), c.east - z, faces.east > vec4<f32>(0.0))
+                + select(vec4<f32>(0.0), s.here - z, faces.south > vec4<f32>(0.0))
+                + select(vec4<f32>(0.0), n.here - z, faces.north > vec4<f32>(0.0));
+        }
+        var excess = clamp(-bend * (*grid).foam_scale - (*grid).foam_onset, vec4<f32>(0.0), vec4<f32>(1.0));
+        if MIXED {
+            let limit = (*grid).foam_depth / (*grid).deep;
+            excess = foam_excess(excess, z, next, a_c, min(a_s.here, a_n.here), limit, (*grid).foam_splash);
+            excess = select(vec4<f32>(0.0), excess, r > vec4<f32>(0.0));
+        }
         let open = (at.i > vec4<u32>(0u)) & (at.i + 1u < vec4<u32>(cells.x)) & vec4<bool>(at.j > 0u && at.j + 1u < cells.y);
-        let next = min(foam * (*grid).foam_keep + excess * (*grid).foam_growth, vec4<f32>(1.0));
-        grid_heights[foam_at] = select(foam, select(vec4<f32>(0.0), next, open), vec4<bool>(last));
+        var keep = vec4<f32>((*grid).foam_keep);
+        if MIXED {
+            keep = select(vec4<f32>(0.0), keep, r > vec4<f32>(0.0));
+        }
+        let foamed = min(foam * keep + excess * (*grid).foam_growth, vec4<f32>(1.0));
+        grid_heights[foam_at] = select(foam, select(vec4<f32>(0.0), foamed, open), vec4<bool>(last));
     }
 }

@@ -71,7 +71,7 @@ impl WaveGrid {
                 beside: (stepping.a * beside) as f32,
                 damping: (0.5 * f64::from(desc.damping) * stepping.dt) as f32,
             },
-            law: FoamLaw::new(desc.wave_speed, desc.cell_size, desc.tick),
+            law: FoamLaw::new(&desc, &stepping),
             profile,
             axes: [Axis::new(&profile, nx), Axis::new(&profile, nz)],
             fade: [vec![0.0; nx], vec![0.0; nz]],

@@ -17,7 +17,10 @@ struct GridParams {
     foam_onset: f32,
     foam_growth: f32,
     foam_keep: f32,
-    pad: u32,
+    deep: f32,
+    foam_depth: f32,
+    foam_splash: f32,
+    pad: vec2<u32>,
 }
 
 struct GridSource {
@@ -31,18 +34,30 @@ struct GridSource {
 struct GridDispatch {
     first: u32,
     substep: u32,
-    pad: vec2<u32>,
+    count: u32,
+    pad: u32,
+}
+
+struct GridCell {
+    place: u32,
+    a: f32,
+    r: f32,
+    pad: u32,
 }
 
 @group(0) @binding(0) var<uniform> grid_dispatch: GridDispatch;
 @group(0) @binding(1) var<uniform> grid_params: array<GridParams, MAX_GRIDS>;
-// (column + 2^8 row + 2^16 grid, first source, number of sources, -)
+// (column + 2^8 row + 2^16 grid, first source, number of sources, mixed)
 @group(0) @binding(2) var<storage, read> grid_tiles: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> grid_sources: array<GridSource>;
 // Per grid: z, z (old and new by turns), z of the last tick, foam.
 @group(0) @binding(4) var<storage, read_write> grid_heights: array<vec4<f32>>;
 // Per grid: phi_x, phi_x, phi_z, phi_z (old and new by turns).
 @group(0) @binding(5) var<storage, read_write> grid_memory: array<vec4<f32>>;
+
+// Per grid: a, r; see wave-grid's ground.rs.
+@group(0) @binding(6) var<storage, read_write> grid_ground: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> grid_cells: array<GridCell>;
 
 // Where a thread's four cells stand.
 struct Place {

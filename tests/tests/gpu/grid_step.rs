@@ -9,22 +9,22 @@ use crate::context::Context;
 const SENTINEL: [f32; 2] = [1234.5, -4321.0];
 
 /// A grid on both sides.
-struct Pair {
-    cpu: WaveGrid,
-    id: GpuGridId,
+pub(crate) struct Pair {
+    pub(crate) cpu: WaveGrid,
+    pub(crate) id: GpuGridId,
     /// Where it is drawn in the pool; cells around it must stay the sentinel.
     base: u32,
 }
 
-struct Twins {
-    gpu: GpuGrids,
-    pairs: Vec<Pair>,
+pub(crate) struct Twins {
+    pub(crate) gpu: GpuGrids,
+    pub(crate) pairs: Vec<Pair>,
     pool: wgpu::Buffer,
 }
 
 const GAP: u32 = 5;
 
-fn twins(context: &Context, descs: &[GridDesc]) -> Twins {
+pub(crate) fn twins(context: &Context, descs: &[GridDesc]) -> Twins {
     let mut gpu = GpuGrids::new(&context.device);
     let mut base = GAP;
     let pairs: Vec<Pair> = descs
@@ -39,29 +39,29 @@ fn twins(context: &Context, descs: &[GridDesc]) -> Twins {
 }
 
 impl Twins {
-    fn add(&mut self, k: usize, source: Source) {
+    pub(crate) fn add(&mut self, k: usize, source: Source) {
         assert_eq!(self.pairs[k].cpu.add(source), self.gpu.add(self.pairs[k].id, source));
     }
 
-    fn center_on(&mut self, k: usize, target: DVec2) {
+    pub(crate) fn center_on(&mut self, k: usize, target: DVec2) {
         self.pairs[k].cpu.center_on(target);
         self.gpu.center_on(self.pairs[k].id, target);
         assert_eq!(self.pairs[k].cpu.window(), self.gpu.window(self.pairs[k].id));
     }
 
-    fn tick(&mut self) {
+    pub(crate) fn tick(&mut self) {
         for pair in &mut self.pairs {
             pair.cpu.tick();
         }
         assert!(self.gpu.tick());
     }
 
-    fn encode(&mut self, context: &Context) {
+    pub(crate) fn encode(&mut self, context: &Context) {
         context.submit(|encoder| self.gpu.encode(&context.device, &context.queue, encoder));
     }
 
     /// Largest difference of each grid's drawn heights and foam, and the largest height.
-    fn compare(&mut self, context: &Context, alpha: f32) -> Vec<[f32; 3]> {
+    pub(crate) fn compare(&mut self, context: &Context, alpha: f32) -> Vec<[f32; 3]> {
         let cells: u32 = (self.pool.size() / 8) as u32;
         context.queue.write_buffer(&self.pool, 0, bytemuck::cast_slice(&vec![SENTINEL; cells as usize]));
         let draws: Vec<_> = self.pairs.iter().map(|p| (p.id, p.base)).collect();
@@ -91,7 +91,7 @@ impl Twins {
     }
 }
 
-fn stone(x: f32, z: f32, radius: f32, volume: f32) -> Source {
+pub(crate) fn stone(x: f32, z: f32, radius: f32, volume: f32) -> Source {
     Source::Displacement { center: Vec2::new(x, z), radius, volume }
 }
 

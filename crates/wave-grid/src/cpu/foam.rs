@@ -2,12 +2,15 @@
 //!
 //! Water breaks where its crest falls too fast: foam grows with the downward acceleration -(c/h)^2 lap z above [`ONSET`]
 //! g and decays with time constant [`DECAY`]. Real crests break below 1 g; here all waves travel at one speed c, and
-//! c^2 k of the short ones is many times the g of real ones, so the onset is chosen by eye. Only for looks.
+//! c^2 k of the short ones is many times the g of real ones, so the onset is chosen by eye. Over a bed water also breaks
+//! where it is higher than [`SHALLOW`] of the depth (taken from c^2 = g depth), and at walls where it rises or falls
+//! faster than [`SPLASH`]. Only for looks.
 
 use crate::cpu::tiles::{Class, Mode, Tiles};
 use crate::desc::TILE;
 use crate::ground::Cells;
 use crate::state::State;
+use crate::{GridDesc, Stepping};
 
 /// Downward acceleration where foam begins, in g.
 pub(crate) const ONSET: f32 = 5.0;
@@ -17,6 +20,10 @@ pub(crate) const RANGE: f32 = 10.0;
 pub(crate) const RATE: f32 = 4.0;
 /// Time constant of the decay, seconds.
 pub(crate) const DECAY: f32 = 5.0;
+/// Height over depth where waves begin to break; they do fully at half as much again.
+const SHALLOW: f32 = 0.4;
+/// Rate of the height at a wall where foam begins, m/s; it grows at the full rate at twice that.
+const SPLASH: f32 = 0.6;
 const GRAVITY: f32 = 9.81;
 
 /// Numbers of the foam's update.
@@ -30,12 +37,22 @@ pub(crate) struct FoamLaw {
     pub(crate) growth: f32,
     /// Factor left after a tick.
     pub(crate) keep: f32,
+    /// Height where waves of the deep water's speed begin to break by depth, metres.
+    pub(crate) depth: f32,
+    /// a of deep water.
+    pub(crate) deep: f32,
+    /// 1 / [`SPLASH`] per metre of rise in a sub-step.
+    pub(crate) splash: f32,
 }
 
 impl FoamLaw {
-    pub(crate) fn new(wave_speed: f32, cell_size: f32, tick: f32) -> Self {
-        let speed = wave_speed / cell_size;
+    pub(crate) fn new(desc: &GridDesc, stepping: &Stepping) -> Self {
+        let tick = desc.tick;
+        let speed = desc.wave_speed / desc.cell_size;
         Self {
+            depth: SHALLOW * desc.wave_speed * desc.wave_speed / GRAVITY,
+            deep: stepping.a as f32,
+            splash: 1.0 / (SPLASH * stepping.dt as f32),
             scale: speed * speed / (GRAVITY * RANGE),
             onset: ONSET / RANGE,
             growth: RATE * tick,
@@ -71,12 +88,13 @@ pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, cells: Option<&Cells>
             let around = (tz.saturating_sub(1)..(tz + 2).min(count_z))
                 .flat_map(|z| &tiles.row(z)[tx.saturating_sub(1)..(tx + 2).min(count_x)])
                 .fold(0.0f32, |most, t| most.max(t.height));
-            if tile.foam > 0.0 || 8.0 * around * law.scale > law.onset {
+            let mixed = cells.filter(|_| tile.class == Class::Mixed);
+            if tile.foam > 0.0 || mixed.is_some() || 8.0 * around * law.scale > law.onset {
                 let (x, z) = (tiles.span(0, tx), tiles.span(1, tz));
-                let foam = tile_foam(state, x.clone(), z.clone(), law);
-                if let Some(cells) = cells.filter(|_| tile.class == Class::Mixed) {
-                    no_foam_on_land(&mut state.foam, cells, x, z);
-                }
+                let foam = match mixed {
+                    Some(cells) => mixed_tile_foam(state, cells, x, z, law),
+                    None => tile_foam(state, x, z, law),
+                };
                 tiles.tiles[tz * count_x + tx].foam = foam;
             }
         }
@@ -99,12 +117,32 @@ fn tile_height(state: &State, x: Span, z: Span) -> f32 {
     most.into_iter().fold(0.0, f32::max)
 }
 
-fn no_foam_on_land(foam: &mut [f32], cells: &Cells, x: Span, z: Span) {
-    for j in z {
-        for at in x.clone().map(|i| j * cells.nx + i) {
-            foam[at] = if cells.a[at] > 0.0 { foam[at] } else { 0.0 };
+/// A tile whose medium varies.
+fn mixed_tile_foam(state: &mut State, cells: &Cells, x: Span, z: Span, law: FoamLaw) -> f32 {
+    let State { nx, nz, z: next, old, foam, .. } = state;
+    let (nx, nz) = (*nx, *nz);
+    let (old, next, a) = (&*old, &*next, &cells.a);
+    let limit = law.depth / law.deep;
+    let mut most = 0.0f32;
+    for j in z.start.max(1)..z.end.min(nz - 1) {
+        for at in x.clone().filter(|i| (1..nx - 1).contains(i)).map(|i| j * nx + i) {
+            let mut excess = 0.0;
+            if cells.is_open(at) {
+                let around = [at - 1, at + 1, at - nx, at + nx];
+                let jump = |other: &usize| if a[*other] > 0.0 { old[*other] - old[at] } else { 0.0 };
+                let lap: f32 = around.iter().map(jump).sum();
+                let steep = -lap * law.scale - law.onset;
+                let high = 2.0 * old[at] / (limit * a[at]) - 2.0;
+                let at_wall = around.iter().any(|other| a[*other] <= 0.0);
+                let rise = if at_wall { (next[at] - old[at]).abs() * law.splash - 1.0 } else { 0.0 };
+                excess = steep.max(high).max(rise).clamp(0.0, 1.0);
+            }
+            let keep = if cells.is_open(at) { law.keep } else { 0.0 };
+            foam[at] = (foam[at] * keep + excess * law.growth).min(1.0);
+            most = most.max(foam[at]);
         }
     }
+    most
 }
 
 fn tile_foam(state: &mut State, x: Span, z: Span, law: FoamLaw) -> f32 {

@@ -3,11 +3,11 @@
 use std::collections::VecDeque;
 
 use bytemuck::{NoUninit, Zeroable};
-use open_water_shaders::grid::{GridDispatch, GridDraw, TickParams};
+use open_water_shaders::grid::{ARRAYS, GridDispatch, GridDraw, MEDIUM_ARRAYS, TickParams};
 use open_water_shaders::pipeline::bind_group;
 
 use super::MAX_GRIDS;
-use super::pack::{Packer, Tick};
+use super::pack::{Packer, Tick, Work};
 use super::pass::{DISPATCH_STRIDE, Passes};
 
 /// A buffer that is written anew and grows in powers of two.
@@ -55,9 +55,12 @@ pub(super) struct Buffers {
     params: List,
     tiles: List,
     sources: List,
+    cells: List,
     draws: List,
     heights: wgpu::Buffer,
     memory: wgpu::Buffer,
+    /// Empty while every medium is plain.
+    ground: wgpu::Buffer,
     state_group: Option<wgpu::BindGroup>,
     draw_group: Option<(wgpu::Buffer, wgpu::BindGroup)>,
     /// The dispatches' uniforms as uploaded.
@@ -76,28 +79,40 @@ impl Buffers {
             params: list("grid params", uniform, size_of::<TickParams>() as u64),
             tiles: list("grid tiles", storage, 4096),
             sources: list("grid sources", storage, 4096),
+            cells: list("grid cells", storage, 4096),
             draws: list("grid draws", uniform, (MAX_GRIDS * size_of::<GridDraw>()) as u64),
             heights: create(device, "grid heights", STATE_USAGE, 16),
             memory: create(device, "grid memory", STATE_USAGE, 16),
+            ground: create(device, "grid ground", STATE_USAGE, 16),
             state_group: None,
             draw_group: None,
             uniforms: Vec::new(),
         }
     }
 
-    /// Makes room for `vectors` of state. What is there stays; what is new is zero.
-    pub(super) fn reserve_state(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, vectors: u64) {
+    /// Makes room for `vectors` of state, and for their medium where it is felt. What is there stays; what is new is zero.
+    pub(super) fn reserve_state(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        vectors: u64,
+        felt: bool,
+    ) {
         let bytes = 16 * vectors;
-        if bytes <= self.heights.size() {
-            return;
+        let of_ground = bytes * u64::from(MEDIUM_ARRAYS) / u64::from(ARRAYS);
+        for (buffer, label, bytes) in [
+            (&mut self.heights, "grid heights", bytes),
+            (&mut self.memory, "grid memory", bytes),
+            (&mut self.ground, "grid ground", if felt { of_ground } else { 0 }),
+        ] {
+            if bytes > buffer.size() {
+                let larger = create(device, label, STATE_USAGE, bytes);
+                encoder.copy_buffer_to_buffer(buffer, 0, &larger, 0, buffer.size());
+                *buffer = larger;
+                self.state_group = None;
+                self.draw_group = None;
+            }
         }
-        for (buffer, label) in [(&mut self.heights, "grid heights"), (&mut self.memory, "grid memory")] {
-            let larger = create(device, label, STATE_USAGE, bytes);
-            encoder.copy_buffer_to_buffer(buffer, 0, &larger, 0, buffer.size());
-            *buffer = larger;
-        }
-        self.state_group = None;
-        self.draw_group = None;
     }
 
     /// Uploads the queued ticks and forgets them in the packer.
@@ -111,9 +126,9 @@ impl Buffers {
     ) -> &wgpu::BindGroup {
         self.uniforms.clear();
         for tick in ticks {
-            for (first, substep, _) in tick.dispatches() {
+            for Work { first, substep, count, .. } in tick.dispatches() {
                 let mut slot = Slot::zeroed();
-                slot[0] = GridDispatch { first, substep, ..Zeroable::zeroed() };
+                slot[0] = GridDispatch { first, substep, count, pad: 0 };
                 self.uniforms.push(slot);
             }
         }
@@ -121,6 +136,7 @@ impl Buffers {
         stale |= self.params.write(device, queue, &packer.params);
         stale |= self.tiles.write(device, queue, &packer.tiles);
         stale |= self.sources.write(device, queue, &packer.sources);
+        stale |= self.cells.write(device, queue, &packer.cells);
         packer.clear();
         if stale {
             self.state_group = None;
@@ -133,6 +149,8 @@ impl Buffers {
                 self.sources.buffer.as_entire_binding(),
                 self.heights.as_entire_binding(),
                 self.memory.as_entire_binding(),
+                self.ground.as_entire_binding(),
+                self.cells.buffer.as_entire_binding(),
             ];
             bind_group(device, "grid state", &passes.state_layout, &resources)
         })
@@ -152,8 +170,8 @@ impl Buffers {
             self.draw_group = None;
         }
         let (_, group) = self.draw_group.get_or_insert_with(|| {
-            let resources =
-                [self.draws.buffer.as_entire_binding(), self.heights.as_entire_binding(), pool.as_entire_binding()];
+            let buffers = [&self.draws.buffer, &self.heights, pool, &self.ground];
+            let resources = buffers.map(wgpu::Buffer::as_entire_binding);
             (pool.clone(), bind_group(device, "grid draw", &passes.draw_layout, &resources))
         });
         group

@@ -1,26 +1,31 @@
 //! Grids homed on the GPU: stepped there, drawn there, never read back here.
 //!
-//! All grids share two state buffers and one list of tiles, so a tick costs one dispatch that prepares and two for each
-//! sub-step (tiles without and with cells of the layer), however many grids there are. A grid sleeps on the CPU's word alone: when nothing has disturbed it for
+//! All grids share their state buffers and one list of tiles, so a tick costs one dispatch that prepares and two for each
+//! sub-step (tiles without and with cells of the layer), however many grids there are; where a medium is felt, one more
+//! that stores it and two more for each sub-step. A grid sleeps on the CPU's word alone: when nothing has disturbed it for
 //! longer than waves and foam last. Tiles of an awake grid are all stepped.
 
 mod buffers;
+mod grid;
+mod land;
 mod pack;
 mod pass;
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use glam::DVec2;
 use open_water_shaders::grid::{self as shader, DRAW_THREADS, TickParams};
 
-use crate::border::Profile;
 use crate::cpu::foam::FoamLaw;
+use crate::medium::{Medium, SharedMedium};
 use crate::source::Footprint;
 use crate::window::{Move, Place};
-use crate::{GridDesc, GridError, Source, Stepping, Window};
+use crate::{GridDesc, GridError, Source, Window};
 
 use buffers::Buffers;
-use pack::{Kind, Packer, Work};
+use grid::Grid;
+use pack::{Packer, Work};
 use pass::Passes;
 
 /// Most grids.
@@ -34,34 +39,11 @@ pub const MAX_TICKS: usize = 64;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct GpuGridId(usize);
 
-/// What the CPU knows of a grid on the GPU.
-#[derive(Debug)]
-struct Grid {
-    desc: GridDesc,
-    stepping: Stepping,
-    place: Place,
-    law: FoamLaw,
-    moving: bool,
-    /// Cells of the torus.
-    torus: [usize; 2],
-    /// First `vec4` of its arrays.
-    base: u32,
-    parity: u32,
-    shift: [i64; 2],
-    clear: bool,
-    /// Sources for the next tick, and the corner of the window they were placed in.
-    sources: Vec<(Footprint, [i64; 2])>,
-    /// Ticks until it may sleep.
-    awake: u32,
-    dropped: u64,
-    /// Its place is free for a grid of the same size.
-    removed: bool,
-}
-
 /// Grids of interactive waves on the GPU.
 #[derive(Debug)]
 pub struct GpuGrids {
     grids: Vec<Grid>,
+    medium: Option<SharedMedium>,
     origin: DVec2,
     passes: Passes,
     buffers: Buffers,
@@ -76,6 +58,7 @@ impl GpuGrids {
         let buffers = Buffers::new(device);
         Self {
             grids: Vec::new(),
+            medium: None,
             origin: DVec2::ZERO,
             passes,
             buffers,
@@ -103,9 +86,10 @@ impl GpuGrids {
             let bound = "such that all grids together hold at most 8,388,608 cells";
             return Err(GridError::InvalidValue { field: "cells", value: (torus[0] * torus[1]) as f64, bound });
         }
-        let grid = Grid {
+        let mut grid = Grid {
+            land: None,
             place: Place::new(&desc),
-            law: FoamLaw::new(desc.wave_speed, desc.cell_size, desc.tick),
+            law: FoamLaw::new(&desc, &stepping),
             moving: false,
             torus,
             base,
@@ -120,12 +104,21 @@ impl GpuGrids {
             stepping,
             desc,
         };
+        grid.set_medium(self.medium.clone());
         if let Some(at) = free {
             self.grids[at] = grid;
             return Ok(GpuGridId(at));
         }
         self.grids.push(grid);
         Ok(GpuGridId(self.grids.len() - 1))
+    }
+
+    /// As [`crate::WaveGrid::set_medium`], for all grids, felt from the next tick on.
+    pub fn set_medium(&mut self, medium: Option<Arc<dyn Medium>>) {
+        self.medium = medium.map(SharedMedium);
+        for grid in &mut self.grids {
+            grid.set_medium(self.medium.clone());
+        }
     }
 
     /// Removes a grid; its memory is for the next one of its size.
@@ -153,11 +146,16 @@ impl GpuGrids {
                 for (sum, by) in grid.shift.iter_mut().zip(shift) {
                     *sum += by;
                 }
+                if let Some(land) = &mut grid.land {
+                    land.shift(shift);
+                }
             }
             Move::Clear => {
                 grid.clear = true;
                 grid.moving = false;
                 grid.sources.clear();
+                let medium = grid.land.take().map(|land| land.ground.medium);
+                grid.set_medium(medium);
             }
         }
     }
@@ -174,7 +172,7 @@ impl GpuGrids {
         let origin = self.origin;
         let grid = &mut self.grids[id.0];
         let rim = grid.desc.pml_width as usize + 2;
-        let Some(footprint) = Footprint::new(source, &grid.place.window, origin, rim, None) else {
+        let Some(footprint) = Footprint::new(source, &grid.place.window, origin, rim, grid.cells()) else {
             grid.dropped += 1;
             return false;
         };
@@ -200,25 +198,27 @@ impl GpuGrids {
         self.ticks.iter().map(|tick| tick.dispatches().count()).sum()
     }
 
+    fn reserve(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
+        let felt = self.grids.iter().any(|grid| grid.cells().is_some());
+        self.buffers.reserve_state(device, encoder, u64::from(self.state_vectors()), felt);
+    }
+
     /// Encodes the queued ticks. Submit the encoder before encoding again.
     pub fn encode(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) {
         if self.ticks.is_empty() {
             return;
         }
-        self.buffers.reserve_state(device, encoder, u64::from(self.state_vectors()));
+        self.reserve(device, encoder);
         let state_group = self.buffers.upload(device, queue, &self.passes, &mut self.packer, &self.ticks);
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() });
         let mut dispatch = 0;
         for (index, tick) in (0..).zip(self.ticks.drain(..)) {
             let params = index * size_of::<TickParams>() as u32;
-            for (_, _, Work { kind, tiles }) in tick.dispatches() {
-                pass.set_pipeline(match kind {
-                    Kind::Prepare { moved } => &self.passes.prepare[usize::from(moved)],
-                    Kind::Step { layer, last } => &self.passes.step[usize::from(layer)][usize::from(last)],
-                });
+            for Work { kind, groups, .. } in tick.dispatches() {
+                pass.set_pipeline(self.passes.of(kind));
                 pass.set_bind_group(0, state_group, &[dispatch * pass::DISPATCH_STRIDE, params]);
-                pass.dispatch_workgroups(tiles, 1, 1);
+                pass.dispatch_workgroups(groups, 1, 1);
                 dispatch += 1;
             }
         }
@@ -240,13 +240,14 @@ impl GpuGrids {
             return;
         }
         let alpha = if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) };
-        self.buffers.reserve_state(device, encoder, u64::from(self.state_vectors()));
+        self.reserve(device, encoder);
         let draws: Vec<_> = draws.iter().take(MAX_GRIDS).map(|(id, out)| self.grids[id.0].drawn(alpha, *out)).collect();
         let [x, y] = [0, 1].map(|k| draws.iter().map(|d| d.cells[k]).max().unwrap_or(0));
         let draw_group = self.buffers.upload_draws(device, queue, &self.passes, pool, &draws);
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grid draw"), ..Default::default() });
-        pass.set_pipeline(&self.passes.draw);
+        let felt = draws.iter().any(|draw| draw.medium != shader::NO_MEDIUM);
+        pass.set_pipeline(&self.passes.draw[usize::from(felt)]);
         pass.set_bind_group(0, draw_group, &[]);
         pass.dispatch_workgroups(x.div_ceil(DRAW_THREADS), y, draws.len() as u32);
     }
@@ -269,48 +270,5 @@ impl GpuGrids {
     /// Sources of a grid dropped so far.
     pub fn dropped_sources(&self, id: GpuGridId) -> u64 {
         self.grids[id.0].dropped
-    }
-}
-
-impl Grid {
-    /// `vec4`s of one array.
-    fn stride(&self) -> u32 {
-        (self.torus[0] * self.torus[1] / 4) as u32
-    }
-
-    /// Ticks after which what a source did has left: waves need eight crossings, foam seven time constants.
-    fn rest_ticks(&self) -> u32 {
-        let [nx, nz] = self.desc.cells.map(|n| n as f32);
-        let crossing = (nx * nx + nz * nz).sqrt() * self.desc.cell_size / self.desc.wave_speed;
-        let seconds = (8.0 * crossing).max(7.0 * crate::cpu::foam::DECAY);
-        (seconds / self.desc.tick).min(u32::MAX as f32 / 2.0) as u32 + 1
-    }
-
-    fn profile(&self) -> Profile {
-        Profile::new(self.desc.pml_width, self.stepping.a, self.moving)
-    }
-
-    /// Where window cell (0, 0) is stored.
-    fn torus_corner(&self) -> [u32; 2] {
-        std::array::from_fn(|k| self.place.window.corner[k].rem_euclid(self.torus[k] as i64) as u32)
-    }
-
-    fn drawn(&self, alpha: f32, out: u32) -> shader::GridDraw {
-        let [x, z] = [self.place.fade_reach(0), self.place.fade_reach(1)];
-        let array = |k: u32| 4 * (self.base + k * self.stride());
-        shader::GridDraw {
-            corner: self.torus_corner(),
-            cells: self.desc.cells,
-            torus: self.torus.map(|n| n as u32),
-            middle: [x[0] as f32, z[0] as f32],
-            // What waits to be cleared is not shown.
-            outer: if self.clear { [-1.0; 2] } else { [x[1] as f32, z[1] as f32] },
-            width: self.place.fade_width() as f32,
-            alpha,
-            now: array(self.parity),
-            previous: array(2),
-            foam: array(3),
-            out,
-        }
     }
 }

@@ -1,57 +1,97 @@
 //! Turns a tick of all grids into what the passes read: parameters, tiles, sources.
 
 use bytemuck::Zeroable;
-use open_water_shaders::grid::{CLEARED, GridParams, GridSource, GridTile, SHIFTED, STOOD, TickParams};
+use open_water_shaders::grid::{
+    CLEARED, GridCell, GridParams, GridSource, GridTile, MEDIUM_THREADS, SHIFTED, STOOD, TickParams,
+};
 
-use super::Grid;
+use super::grid::Grid;
 use crate::TILE;
+use crate::cpu::tiles::Class;
 use crate::source::Footprint;
 
-/// A queued tick: tiles without cells of the layer stand first, and among them those of the grids with most sub-steps.
+/// How tiles are stepped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct TileKind {
+    /// They may have cells of the layer.
+    pub(super) layer: bool,
+    /// Their medium varies.
+    pub(super) mixed: bool,
+}
+
+/// The kinds in the order of the list.
+const KINDS: [TileKind; 4] = [
+    TileKind { layer: false, mixed: false },
+    TileKind { layer: true, mixed: false },
+    TileKind { layer: false, mixed: true },
+    TileKind { layer: true, mixed: true },
+];
+
+/// A queued tick: its tiles stand by kind, and among those of a kind the ones of the grids with most sub-steps first.
 #[derive(Debug)]
 pub(super) struct Tick {
     /// First of its tiles in the list.
-    pub(super) first: u32,
-    /// Tiles without and with cells of the layer.
-    pub(super) tiles: [u32; 2],
+    first: u32,
+    /// Tiles of each kind.
+    tiles: [u32; 4],
+    /// First of the cells whose medium it stores, and how many.
+    cells: [u32; 2],
     /// A grid moved.
-    pub(super) moved: bool,
+    moved: bool,
     pub(super) substeps: Vec<Substep>,
 }
 
 /// A sub-step covers the grids that have so many.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Substep {
-    /// Tiles without and with cells of the layer.
-    pub(super) tiles: [u32; 2],
+    /// Tiles of each kind.
+    tiles: [u32; 4],
     /// It is the last of some grid.
-    pub(super) last: bool,
+    last: bool,
 }
 
 /// A pipeline.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Kind {
-    Prepare { moved: bool },
-    Step { layer: bool, last: bool },
+    Medium,
+    Prepare { moved: bool, medium: bool },
+    Step { tiles: TileKind, last: bool },
 }
 
 /// What a dispatch runs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Work {
     pub(super) kind: Kind,
-    pub(super) tiles: u32,
+    /// First tile or cell of the list, how many cells, sub-step.
+    pub(super) first: u32,
+    pub(super) count: u32,
+    pub(super) substep: u32,
+    pub(super) groups: u32,
 }
 
 impl Tick {
-    /// The tick's dispatches in order: first tile, sub-step, work.
-    pub(super) fn dispatches(&self) -> impl Iterator<Item = (u32, u32, Work)> {
-        let [inner, layer] = self.tiles;
-        let prepare = Work { kind: Kind::Prepare { moved: self.moved }, tiles: inner + layer };
-        let steps = (0..).zip(&self.substeps).flat_map(move |(k, &Substep { tiles, last })| {
-            let work = |layer: bool| Work { kind: Kind::Step { layer, last }, tiles: tiles[usize::from(layer)] };
-            [(self.first, k, work(false)), (self.first + inner, k, work(true))]
+    /// The tick's dispatches in order.
+    pub(super) fn dispatches(&self) -> impl Iterator<Item = Work> {
+        let [first_cell, count] = self.cells;
+        let groups = count.div_ceil(MEDIUM_THREADS);
+        let medium = Work { kind: Kind::Medium, first: first_cell, count, substep: 0, groups };
+        let prepare = Work {
+            kind: Kind::Prepare { moved: self.moved, medium: self.tiles[2] + self.tiles[3] > 0 },
+            first: self.first,
+            count: 0,
+            substep: 0,
+            groups: self.tiles.iter().sum(),
+        };
+        let steps = (0..).zip(&self.substeps).flat_map(move |(substep, &Substep { tiles, last })| {
+            let mut start = self.first;
+            let works: [Work; 4] = std::array::from_fn(|k| {
+                let first = start;
+                start += self.tiles[k];
+                Work { kind: Kind::Step { tiles: KINDS[k], last }, first, count: 0, substep, groups: tiles[k] }
+            });
+            works
         });
-        std::iter::once((self.first, 0, prepare)).chain(steps).filter(|(_, _, work)| work.tiles > 0)
+        [medium, prepare].into_iter().chain(steps).filter(|work| work.groups > 0)
     }
 }
 
@@ -62,6 +102,7 @@ pub(super) struct Packer {
     pub(super) params: Vec<TickParams>,
     pub(super) tiles: Vec<GridTile>,
     pub(super) sources: Vec<GridSource>,
+    pub(super) cells: Vec<GridCell>,
     /// ((grid, place of a tile), source).
     placed: Vec<((u32, u32), GridSource)>,
 }
@@ -72,6 +113,7 @@ impl Packer {
         self.params.clear();
         self.tiles.clear();
         self.sources.clear();
+        self.cells.clear();
     }
 
     /// Appends one tick, and moves the grids on.
@@ -80,7 +122,9 @@ impl Packer {
         order.sort_by_key(|g| std::cmp::Reverse(grids[*g].stepping.substeps));
         let most = order.first().map_or(0, |g| grids[*g].stepping.substeps);
         let first = self.tiles.len() as u32;
-        let mut tick = Tick { first, tiles: [0; 2], moved: false, substeps: vec![Substep::default(); most as usize] };
+        let cells = [self.cells.len() as u32, 0];
+        let substeps = vec![Substep::default(); most as usize];
+        let mut tick = Tick { first, tiles: [0; 4], cells, moved: false, substeps };
         if order.is_empty() {
             return tick;
         }
@@ -94,13 +138,16 @@ impl Packer {
             params[slot] = packed(grid);
             tick.moved |= params[slot].moved != STOOD;
             self.place_sources(slot as u32, grid);
+            if let Some(land) = &mut grid.land {
+                land.upload(slot as u32, grid.torus, &mut self.cells);
+            }
         }
+        tick.cells[1] = self.cells.len() as u32 - tick.cells[0];
         self.placed.sort_by_key(|(tile, _)| *tile);
-        for layer in [false, true] {
-            let kind = usize::from(layer);
+        for (kind, of) in KINDS.into_iter().enumerate() {
             for (slot, g) in order.iter().enumerate() {
                 let grid = &grids[*g];
-                tick.tiles[kind] += self.pack_tiles(slot as u32, grid, layer);
+                tick.tiles[kind] += self.pack_tiles(slot as u32, grid, of);
                 let own = grid.stepping.substeps as usize;
                 for (k, substep) in tick.substeps.iter_mut().take(own).enumerate() {
                     substep.tiles[kind] = tick.tiles[kind];
@@ -120,9 +167,14 @@ impl Packer {
         tick
     }
 
-    /// Lists the tiles without or with cells of the layer. Returns how many there are.
-    fn pack_tiles(&mut self, slot: u32, grid: &Grid, layer: bool) -> u32 {
+    /// Lists the tiles of a kind. Returns how many there are.
+    fn pack_tiles(&mut self, slot: u32, grid: &Grid, kind: TileKind) -> u32 {
         let before = self.tiles.len();
+        let land = grid.land.as_ref().filter(|land| land.ground.cells.is_some());
+        if kind.mixed && land.is_none() {
+            return 0;
+        }
+        let of = if kind.mixed { Class::Mixed } else { Class::Plain };
         let (corner, thickness) = (grid.torus_corner(), grid.profile().thickness);
         let inner = |k: usize, tile: usize| {
             let cell = (tile * TILE + grid.torus[k] - corner[k] as usize) % grid.torus[k];
@@ -130,21 +182,22 @@ impl Packer {
         };
         for row in 0..grid.torus[1] / TILE {
             for column in 0..grid.torus[0] / TILE {
-                if (inner(0, column) && inner(1, row)) != layer {
-                    self.pack_tile(slot, (column | row << 8) as u32);
+                let wanted = (inner(0, column) && inner(1, row)) != kind.layer;
+                if wanted && land.map_or(Class::Plain, |land| land.class([column, row], grid.torus)) == of {
+                    self.pack_tile(slot, (column | row << 8) as u32, kind.mixed);
                 }
             }
         }
         (self.tiles.len() - before) as u32
     }
 
-    fn pack_tile(&mut self, slot: u32, place: u32) {
+    fn pack_tile(&mut self, slot: u32, place: u32, mixed: bool) {
         let first_source = self.sources.len() as u32;
         let start = self.placed.partition_point(|(tile, _)| *tile < (slot, place));
         let own = self.placed[start..].iter().take_while(|(tile, _)| *tile == (slot, place));
         self.sources.extend(own.map(|(_, source)| *source));
         let source_count = self.sources.len() as u32 - first_source;
-        self.tiles.push(GridTile { place: place | slot << 16, first_source, source_count, pad: 0 });
+        self.tiles.push(GridTile { place: place | slot << 16, first_source, source_count, mixed: u32::from(mixed) });
     }
 
     /// Lists the grid's sources by tile, each tile's in the order they were added.
@@ -202,6 +255,9 @@ fn packed(grid: &Grid) -> GridParams {
         foam_onset: grid.law.onset,
         foam_growth: grid.law.growth,
         foam_keep: grid.law.keep,
-        pad: 0,
+        deep: grid.stepping.a as f32,
+        foam_depth: grid.law.depth,
+        foam_splash: grid.law.splash,
+        pad: [0; 2],
     }
 }

@@ -1,6 +1,7 @@
 //! The pipelines of the grid passes and their layouts.
 
 use super::MAX_GRIDS;
+use super::pack::{Kind, TileKind};
 use open_water_shaders::grid::{self as shader, GridDispatch, GridDraw, TickParams};
 use open_water_shaders::pipeline::{Slot, compute_pipeline, group_layout};
 
@@ -12,11 +13,14 @@ pub(super) const DISPATCH_STRIDE: u32 = 256;
 pub(super) struct Passes {
     pub(super) state_layout: wgpu::BindGroupLayout,
     pub(super) draw_layout: wgpu::BindGroupLayout,
-    /// For grids that stood, and for ones that may have moved.
-    pub(super) prepare: [wgpu::ComputePipeline; 2],
-    /// Without and with cells of the layer, each without and with the last sub-step's work.
-    pub(super) step: [[wgpu::ComputePipeline; 2]; 2],
-    pub(super) draw: wgpu::ComputePipeline,
+    medium: wgpu::ComputePipeline,
+    /// For grids that stood, and for ones that may have moved; each without and with mixed tiles.
+    prepare: [[wgpu::ComputePipeline; 2]; 2],
+    /// Without and with cells of the layer, each without and with the last sub-step's work, each of plain tiles and of
+    /// mixed ones.
+    step: [[[wgpu::ComputePipeline; 2]; 2]; 2],
+    /// Without and with grids that have walls.
+    pub(super) draw: [wgpu::ComputePipeline; 2],
 }
 
 impl Passes {
@@ -24,20 +28,39 @@ impl Passes {
         let compute = wgpu::ShaderStages::COMPUTE;
         let uniform = Slot::DynamicUniform { size: size_of::<GridDispatch>() };
         let params = Slot::DynamicUniform { size: size_of::<TickParams>() };
-        let state = [uniform, params, Slot::Read, Slot::Read, Slot::ReadWrite, Slot::ReadWrite];
+        let (read, write) = (Slot::Read, Slot::ReadWrite);
+        let state = [uniform, params, read, read, write, write, write, read];
         let draws = Slot::Uniform { size: MAX_GRIDS * size_of::<GridDraw>() };
         let state_layout = group_layout(device, "grid state", compute, &state);
-        let draw_layout = group_layout(device, "grid draw", compute, &[draws, Slot::Read, Slot::ReadWrite]);
+        let draw_layout = group_layout(device, "grid draw", compute, &[draws, read, write, read]);
         let pipeline = |pass: &open_water_shaders::Pass, layout: &wgpu::BindGroupLayout, constants: &[(&str, f64)]| {
             compute_pipeline(device, pass, pass.name, &[layout], constants)
         };
-        let step = |layer, last| pipeline(&shader::STEP, &state_layout, &[("LAYER", layer), ("LAST", last)]);
+        const BOTH: [f64; 2] = [0.0, 1.0];
+        let prepare =
+            |moved, medium| pipeline(&shader::PREPARE, &state_layout, &[("MOVED", moved), ("MEDIUM", medium)]);
+        let step = |layer, last, mixed| {
+            pipeline(&shader::STEP, &state_layout, &[("LAYER", layer), ("LAST", last), ("MIXED", mixed)])
+        };
         Self {
-            prepare: [0.0, 1.0].map(|moved| pipeline(&shader::PREPARE, &state_layout, &[("MOVED", moved)])),
-            step: [0.0, 1.0].map(|layer| [0.0, 1.0].map(|last| step(layer, last))),
-            draw: pipeline(&shader::DRAW, &draw_layout, &[]),
+            medium: pipeline(&shader::MEDIUM, &state_layout, &[]),
+            prepare: BOTH.map(|moved| BOTH.map(|medium| prepare(moved, medium))),
+            step: BOTH.map(|layer| BOTH.map(|last| BOTH.map(|mixed| step(layer, last, mixed)))),
+            draw: BOTH.map(|medium| pipeline(&shader::DRAW, &draw_layout, &[("MEDIUM", medium)])),
             state_layout,
             draw_layout,
+        }
+    }
+
+    /// The pipeline of a dispatch.
+    pub(super) fn of(&self, kind: Kind) -> &wgpu::ComputePipeline {
+        match kind {
+            Kind::Medium => &self.medium,
+            Kind::Prepare { moved, medium } => &self.prepare[usize::from(moved)][usize::from(medium)],
+            Kind::Step { tiles, last } => {
+                let TileKind { layer, mixed } = tiles;
+                &self.step[usize::from(layer)][usize::from(last)][usize::from(mixed)]
+            }
         }
     }
 }
