@@ -4,12 +4,12 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use glam::{Affine3A, DVec2, Quat, Vec2, Vec3};
+use glam::{Affine3A, Quat, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyId, BodyState, Controls, Follow, GridDesc, GridId, Hull, Mooring, MooringId, MooringLine, OpenWater,
-    Pose, Tick,
+    BodyDesc, BodyId, BodyState, Controls, DepthMap, Follow, GridDesc, GridId, Hull, Mooring, MooringId, MooringLine,
+    OpenWater, Pose, Tick,
 };
-use open_water_examples::harbour::{self, Bed, World};
+use open_water_examples::harbour::{self, World};
 use open_water_examples::{
     Course, Dice, Flotsam, Helm, Kind, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh,
     run,
@@ -24,8 +24,6 @@ const SPEED: f32 = 12.0;
 const LEAD: f32 = 24.0;
 /// Nothing floats closer to a course or a wall at first, metres.
 const CLEAR: f32 = 7.0;
-/// Cells of the basin's grid, its cell size and its centre, metres.
-const BASIN: ([u32; 2], f32, DVec2) = ([328, 344], 1.0, DVec2::new(4.0, 2.0));
 
 /// Options of the harbour.
 #[derive(Debug, Clone, clap::Args)]
@@ -39,7 +37,7 @@ struct More {
 struct Harbour {
     water: OpenWater,
     world: World,
-    bed: Bed,
+    bed: DepthMap,
     hull: Hull,
     waterline: f32,
     fittings: bool,
@@ -157,7 +155,7 @@ impl Harbour {
                         harbour::distance(&line, place) > CLEAR
                     });
                     let jetty = harbour::distance(&harbour::JETTY, place) > CLEAR;
-                    let deep = self.bed.elevation(place) < -1.5;
+                    let deep = self.bed.elevation(place.as_dvec2()) < -1.5;
                     let berth = place.distance(self.berth()) > 12.0;
                     (open && jetty && deep && berth && !near(&ferry, place) && !near(&round, place)).then_some(place)
                 });
@@ -203,29 +201,22 @@ impl Scene for Harbour {
     const SEA: &'static str = include_str!("assets/seas/harbour.txt");
     const VIEWPOINTS: usize = 3;
     type More = More;
-    type Assets = Bed;
+    type Assets = DepthMap;
 
-    fn assets(more: &More) -> Result<Bed, SceneError> {
-        Bed::read(more.depth.as_deref())
+    fn assets(more: &More) -> Result<DepthMap, SceneError> {
+        harbour::depth_map(more.depth.as_deref())
     }
 
-    fn new(options: &Options, setup: &Setup<Bed>, mut water: OpenWater) -> Result<Self, SceneError> {
+    fn new(options: &Options, setup: &Setup<DepthMap>, mut water: OpenWater) -> Result<Self, SceneError> {
         let hull = setup.hull.clone();
         let mass = 0.24 * hull.volume() * 1025.0;
         let desc = options.preset().body(BodyDesc::boat(&hull, mass, SPEED));
         let waterline = hull.waterline(desc.displaced_volume()).level;
         let bed = setup.assets.clone();
-        let world = World::new(water.desc().tick, bed.extent(), |p| bed.elevation(p));
+        water.set_land(Some(harbour::land(bed.clone())))?;
+        let world = World::new(water.desc().tick, harbour::extent(&bed), |p| bed.elevation(p.as_dvec2()));
         let period = water.ocean().map_or(6.0, |ocean| ocean.peak_period());
-        let (cells, cell_size, center) = BASIN;
-        let basin = water.add_grid(GridDesc {
-            follow: Follow::Fixed(center),
-            cells,
-            cell_size,
-            // Waves of the peak period over deep water.
-            wave_speed: (1.56 * period as f32).clamp(6.0, 16.0),
-            ..options.preset().grid()
-        })?;
+        let basin = water.add_grid(harbour::basin(options.preset(), period))?;
         let courses = [Course::new(ferry()), Course::new(round())];
         let mut boats = Vec::new();
         for wake in [true, true, false] {
@@ -299,15 +290,15 @@ impl Scene for Harbour {
 
     fn build(&mut self, device: &wgpu::Device, meshes: &mut MeshView) {
         let bed = self.bed.clone();
-        let still = Instance { world_from_mesh: Affine3A::IDENTITY, tint: Vec3::ONE };
-        let _ = still;
+        let (extent, height) = (harbour::extent(&bed), |p: Vec2| bed.elevation(p.as_dvec2()));
         let mut line = MeshData::default();
         line.cylinder(Vec3::ZERO, Vec3::X, 1.0, 6, [206, 196, 160, 10]);
         let half = self.world.fenders().1;
         let mut fender = MeshData::default();
         fender.cylinder(Vec3::X * -half.x, Vec3::X * half.x, half.z, 14, [40, 40, 44, 60]);
         self.meshes = [
-            (harbour::ground(bed.extent(), 0.0, |p| bed.elevation(p)), 1),
+            (harbour::ground(extent, 0.0, height), 1),
+            (harbour::green(extent, 0.0, height), 1),
             (harbour::breakwaters(), 1),
             (harbour::quay(), 1),
             (harbour::jetty(), 1),
@@ -342,9 +333,9 @@ impl Scene for Harbour {
         let fenders: Vec<Instance> = world.fenders().0.into_iter().map(|p| at(Affine3A::from_translation(p))).collect();
         for (index, mesh) in self.meshes.iter().enumerate() {
             let instances: &[Instance] = match index {
-                4 => &boats,
-                5 => &lines,
-                6 => &fenders,
+                5 => &boats,
+                6 => &lines,
+                7 => &fenders,
                 _ => &[at(Affine3A::IDENTITY)],
             };
             meshes.place(queue, *mesh, instances);
@@ -370,8 +361,8 @@ impl Scene for Harbour {
     fn viewpoint(&self, index: usize) -> Option<Viewpoint> {
         let views = [
             (Vec3::new(-205.0, 62.0, 150.0), Vec3::new(0.0, 0.0, -14.0)),
-            (Vec3::new(150.0, 5.5, 92.0), Vec3::new(60.0, 0.0, -10.0)),
-            (Vec3::new(66.0, 6.0, -98.0), Vec3::new(30.0, 0.5, -108.0)),
+            (Vec3::new(150.0, 4.6, -66.0), Vec3::new(112.0, 0.0, 20.0)),
+            (Vec3::new(54.0, 5.2, -95.0), Vec3::new(32.0, 0.3, -112.0)),
         ];
         views.get(index).map(|&(eye, target)| Viewpoint { eye, target })
     }
@@ -381,7 +372,7 @@ impl Scene for Harbour {
     }
 
     fn ground(&self, at: Vec2) -> Option<f32> {
-        Some(self.bed.elevation(at))
+        Some(self.bed.elevation(at.as_dvec2()))
     }
 
     fn subject(&self) -> Subject {

@@ -81,6 +81,7 @@ impl Painter {
         let mut params = ViewParams::new(camera.view(self.view.desc().reverse_z));
         params.sky.sun_direction = Vec3::new(-0.75, 0.55, -0.6);
         params.wave_height = scene.water().ocean().map_or(0.0, |ocean| ocean.significant_height());
+        params.level = scene.water().level();
         params.water = scene.look();
         params.dry = scene.dry();
         self.view.prepare(&gpu.queue, &params);

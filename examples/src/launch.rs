@@ -113,8 +113,8 @@ impl Course {
         let aim = (from + leg * along - at).normalize_or(leg);
         let turn = ahead.angle_to(aim);
         // Slower round the corners.
-        let throttle = throttle * (1.0 - 0.45 * (turn.abs() / 1.2).min(1.0));
-        [throttle, (1.6 * turn).clamp(-1.0, 1.0)]
+        let throttle = throttle * (1.0 - 0.35 * (turn.abs() / 1.2).min(1.0));
+        [throttle, (1.3 * turn).clamp(-0.7, 0.7)]
     }
 }
 

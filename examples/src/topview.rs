@@ -37,6 +37,7 @@ impl TopView {
         self.samples.resize(self.points.len(), WaterSample::default());
         scene.water().sample(&self.points, &mut self.samples);
         let tall = scene.water().ocean().map_or(1.0, |ocean| ocean.significant_height()).max(0.2);
+        let level = scene.water().level();
         let mut picture = RgbaImage::new(width, height);
         for (x, y, pixel) in picture.enumerate_pixels_mut() {
             let (i, j) = (x / STRIDE, y / STRIDE);
@@ -50,8 +51,24 @@ impl TopView {
             ];
             let height: f32 = quad.iter().map(|(sample, w)| w * sample.height).sum();
             let normal: Vec3 = quad.iter().map(|(sample, w)| *w * sample.normal).sum();
-            let foam = scene.foam(corner + scale * Vec2::new(x as f32, y as f32));
-            *pixel = shade(height / tall, normal.normalize_or(Vec3::Y), foam);
+            let at = corner + scale * Vec2::new(x as f32, y as f32);
+            let foam = scene.foam(at);
+            let normal = normal.normalize_or(Vec3::Y);
+            let water = |height: f32, foam: f32| shade((height - level) / tall, normal, foam);
+            *pixel = match scene.ground(at) {
+                None => water(height, foam),
+                Some(ground) => {
+                    let step = scale.max(0.5);
+                    let east = scene.ground(at + Vec2::X * step).unwrap_or(ground);
+                    let south = scene.ground(at + Vec2::Y * step).unwrap_or(ground);
+                    let land = earth(ground - level, Vec2::new(east - ground, south - ground) / step);
+                    // The bed shows through shallow water, which ends in a white edge.
+                    let depth = height - ground;
+                    let seen = (-0.7 * depth.max(0.0)).exp();
+                    let edge = (1.0 - depth / 0.25).clamp(0.0, 1.0) * 0.7;
+                    if depth <= 0.0 { land } else { blend(water(height, foam.max(edge)), land, seen) }
+                }
+            };
         }
         for mark in scene.marks() {
             fill(&mut picture, &mark, corner, scale);
@@ -74,6 +91,22 @@ fn shade(height: f32, normal: Vec3, foam: f32) -> Rgba<u8> {
     let color = water.lerp(Vec3::splat(0.85 * (0.4 + 0.8 * light)), foam.clamp(0.0, 1.0));
     let byte = |v: f32| (v.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0 + 0.5) as u8;
     Rgba([byte(color.x), byte(color.y), byte(color.z), 255])
+}
+
+/// Colour of land at a height above still water under the same light.
+fn earth(height: f32, slope: Vec2) -> Rgba<u8> {
+    let light = Vec3::new(-slope.x, 1.0, -slope.y).normalize().dot(Vec3::new(-0.55, 0.6, -0.58)).max(0.0);
+    let sand = Vec3::new(0.48, 0.37, 0.2);
+    let grass = Vec3::new(0.09, 0.13, 0.035);
+    let dry = sand.lerp(grass, ((height - 2.0) / 1.5).clamp(0.0, 1.0));
+    let color = dry * (0.3 + 1.1 * light) * if height < 0.3 { 0.6 } else { 1.0 };
+    let byte = |v: f32| (v.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0 + 0.5) as u8;
+    Rgba([byte(color.x), byte(color.y), byte(color.z), 255])
+}
+
+/// `a`, or as much of `b` as `share` says.
+fn blend(a: Rgba<u8>, b: Rgba<u8>, share: f32) -> Rgba<u8> {
+    Rgba(std::array::from_fn(|c| (f32::from(a[c]) + share * (f32::from(b[c]) - f32::from(a[c]))) as u8))
 }
 
 /// Fills a convex outline.
@@ -109,6 +142,15 @@ mod tests {
         let foam = shade(0.0, Vec3::Y, 1.0);
         assert!(lit[1] > dark[1] + 10 && foam[0] > lit[0]);
         assert!(dark[2] > dark[0], "water is blue");
+    }
+
+    #[test]
+    fn land_is_sand_then_grass_and_brighter_towards_the_light() {
+        let (sand, grass) = (earth(1.0, Vec2::ZERO), earth(8.0, Vec2::ZERO));
+        assert!(sand[0] > grass[0] + 40 && grass[1] > grass[0]);
+        assert!(earth(8.0, Vec2::splat(0.4))[1] > earth(8.0, Vec2::splat(-0.4))[1] + 20);
+        assert_eq!(blend(sand, grass, 1.0), grass);
+        assert_eq!(blend(sand, grass, 0.0), sand);
     }
 
     #[test]

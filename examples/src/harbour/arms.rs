@@ -46,6 +46,18 @@ pub(super) fn rock(data: &mut MeshData, at: Vec3, size: f32, dice: &mut Dice, we
     }
 }
 
+/// A lumpy ball of these half sizes, shaded smooth.
+pub(super) fn blob(data: &mut MeshData, at: Vec3, half: Vec3, dice: &mut Dice, color: [u8; 4]) {
+    let turn = Quat::from_rotation_y(6.28 * dice.roll());
+    let base = data.vertices.len() as u32;
+    for c in CORNERS {
+        let out = turn * Vec3::from(c).normalize();
+        let position = (at + half * out * (0.85 + 0.3 * dice.roll())).into();
+        data.vertices.push(water_view::MeshVertex { position, normal: out.into(), color });
+    }
+    data.indices.extend(FACES.iter().flatten().map(|k| base + *k as u32));
+}
+
 fn mound(data: &mut MeshData, axis: &[Vec2]) {
     let rings: Vec<Vec<Vec3>> = ARM_PROFILE
         .iter()

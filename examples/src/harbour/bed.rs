@@ -64,8 +64,10 @@ pub fn elevation(p: Vec2) -> f32 {
     } else {
         let beach = -d / 11.0;
         let rock = 0.35 - d / 2.6 + rough;
-        // Then meadows and hills.
-        let hills = 5.5 - d / 30.0 + (3.5 * noise(p / 58.0, 7) + 1.2 * noise(p / 21.0, 8)) * smoothstep(10.0, 70.0, -d);
+        // Then meadows and hills, even towards the map's edge, where its last pixels go on.
+        let edge = p.abs().max_element();
+        let rolling = smoothstep(10.0, 70.0, -d) * (1.0 - smoothstep(200.0, 250.0, edge));
+        let hills = 5.5 - d / 30.0 + (3.5 * noise(p / 58.0, 7) + 1.2 * noise(p / 21.0, 8)) * rolling;
         let low = rock + sand * (beach - rock);
         let level = 2.8 + 2.7 * (1.0 - sand);
         let t = smoothstep(0.6 * level, 2.2 * level, low);

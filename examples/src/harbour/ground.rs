@@ -34,9 +34,10 @@ fn lines(low: f32, high: f32, step: f32) -> Vec<f32> {
 fn paint(p: Vec2, height: f32, steep: f32, level: f32) -> [u8; 4] {
     let grain = 0.5 * noise(p / 2.3, 21) + 0.5 * noise(p / 9.0, 22);
     let above = height - level;
-    let sand = Vec3::new(196.0, 174.0, 132.0) * (1.0 + 0.06 * grain);
-    let rock = Vec3::new(118.0, 112.0, 104.0) * (1.0 + 0.22 * grain);
-    let grass = Vec3::new(88.0, 104.0, 52.0) * (1.0 + 0.2 * grain) + Vec3::new(26.0, 10.0, 0.0) * noise(p / 37.0, 23);
+    let sand = Vec3::new(184.0, 162.0, 120.0) * (1.0 + 0.06 * grain);
+    let rock = Vec3::new(98.0, 93.0, 86.0) * (1.0 + 0.22 * grain);
+    let far = 0.6 * noise(p / 37.0, 23) + 0.4 * noise(p / 170.0, 24);
+    let grass = Vec3::new(66.0, 76.0, 40.0) * (1.0 + 0.22 * grain) + Vec3::new(24.0, 12.0, 4.0) * far;
     let gravel = Vec3::new(150.0, 146.0, 138.0) * (1.0 + 0.07 * grain);
     let bare = sand.lerp(rock, smoothstep(0.16, 0.32, steep + 0.05 * grain));
     let green = smoothstep(2.3, 3.6, above + 0.6 * grain) * (1.0 - smoothstep(0.45, 0.8, steep));

@@ -3,6 +3,7 @@
 mod arms;
 mod bed;
 mod chart;
+mod green;
 mod ground;
 mod plan;
 mod works;
@@ -10,7 +11,8 @@ mod world;
 
 pub use arms::breakwaters;
 pub use bed::{elevation, picture};
-pub use chart::{Bed, marks};
+pub use chart::{basin, depth_map, extent, land, marks};
+pub use green::green;
 pub use ground::{Extent, ground};
 pub use plan::{
     BERTH, JETTY, JETTY_HALF_WIDTH, JETTY_TOP, MAP_CORNER, MAP_METRES_PER_LEVEL, MAP_SEA_LEVEL, MAP_SIZE, MAP_TEXEL,
