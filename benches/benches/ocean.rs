@@ -1,10 +1,11 @@
-//! The ambient sea on the CPU: synthesis, point queries, patches.
+//! The ambient sea on the CPU: synthesis, point queries, patches, feeds.
 
 use std::hint::black_box;
+use std::sync::Arc;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use glam::Vec2;
-use ocean_spectrum::{Ocean, OceanSample};
+use glam::{DVec2, Vec2};
+use ocean_spectrum::{AmplitudeMap, EdgeDesc, EdgeFeed, Ocean, OceanSample};
 use open_water_benches::fixtures::{self, Random};
 
 fn ocean(size: u32) -> Ocean {
@@ -27,7 +28,7 @@ fn synthesis(c: &mut Criterion) {
 }
 
 fn queries(c: &mut Criterion) {
-    let ocean = ocean(256);
+    let mut ocean = ocean(256);
     let mut random = Random::new(1);
     let points: Vec<Vec2> = (0..1000)
         .map(|_| Vec2::new(random.within(-300.0, 300.0) as f32, random.within(-300.0, 300.0) as f32))
@@ -41,7 +42,34 @@ fn queries(c: &mut Criterion) {
             ocean.patch(black_box(points[i]), 0.5)
         });
     });
+    let factors = (0..128 * 128).map(|_| [random.within(0.0, 1.0) as f32; 8]).collect();
+    let map = AmplitudeMap::new(DVec2::splat(-320.0), 5.0, [128; 2], factors).expect("in bounds");
+    ocean.set_amplitudes(Some(Arc::new(map)));
+    c.bench_function("ocean/sample_map/1000", |b| b.iter(|| ocean.sample(black_box(&points), &mut answers)));
 }
 
-criterion_group!(benches, synthesis, queries);
+fn feeds(c: &mut Criterion) {
+    let ocean = ocean(256);
+    let edge = EdgeDesc {
+        along_x: false,
+        across: [0.0, 0.5],
+        inward: 1.0,
+        first: 0.0,
+        step: 0.5,
+        count: 300,
+        wave_speed: 7.0,
+        cascades: 2,
+    };
+    let mut feed = EdgeFeed::new(&ocean, edge).expect("in bounds");
+    let (mut outside, mut inside) = (vec![0.0; 300], vec![0.0; 300]);
+    let mut phase = 0u32;
+    c.bench_function("ocean/edge_feed/300", |b| {
+        b.iter(|| {
+            phase = phase.wrapping_add(1 << 20);
+            feed.rows(black_box(phase), [&mut outside, &mut inside]);
+        });
+    });
+}
+
+criterion_group!(benches, synthesis, queries, feeds);
 criterion_main!(benches);

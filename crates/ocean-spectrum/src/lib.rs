@@ -28,7 +28,11 @@
 //! of the FFTs only decide how many of them are held. Feature `gpu` adds synthesis on wgpu from the same modes; without
 //! it the crate does not know wgpu.
 //!
-//! Not here: interactive waves, bodies, shores (the depth is one number), wave breaking, surface tension.
+//! Near land an [`AmplitudeMap`] scales the cascades from place to place ([`Ocean::depth_factors`] says by how much over
+//! a depth), and [`EdgeFeed`] hands the incoming waves to an interactive grid.
+//!
+//! Not here: interactive waves, bodies, refraction (a wave's length follows from one depth everywhere), the shape of
+//! breaking waves, surface tension.
 
 mod amplitude;
 pub mod dispersion;

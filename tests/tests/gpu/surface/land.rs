@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use ocean_spectrum::gpu::GpuOcean;
 use ocean_spectrum::{AmplitudeMap, CascadeDesc, CascadeFactors, Ocean, OceanDesc, OceanSample};
 use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_layout};
@@ -16,6 +16,8 @@ const TEXEL: f32 = 7.0;
 const CORNER: Vec2 = Vec2::new(-81.0, -52.5);
 const LEVEL: f32 = 1.75;
 
+/// Water level, and factors by place.
+type Land = (f32, fn(Vec2) -> CascadeFactors);
 /// What one call answers at each point.
 type Answers = Vec<[f32; 4]>;
 
@@ -79,7 +81,7 @@ impl<'a> Stage<'a> {
     }
 
     /// Runs `call`, WGSL for a vec4 at `p`, with factors by place.
-    fn ask(&self, land: Option<(f32, fn(Vec2) -> CascadeFactors)>, call: &str, points: &[Vec2]) -> Answers {
+    fn ask(&self, land: Option<Land>, call: &str, points: &[Vec2]) -> Answers {
         let Context { device, queue, .. } = self.context;
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("land"),
