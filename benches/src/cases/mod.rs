@@ -4,12 +4,15 @@ mod body_float;
 mod energy;
 mod facade;
 mod grid_border;
+mod grid_medium;
 mod grid_phase;
+mod grid_shore;
 mod grid_step;
 mod harbour;
 mod ocean_fft;
 mod ocean_gpu;
 mod ocean_height;
+mod rapier;
 
 use crate::evidence::Case;
 
@@ -24,8 +27,14 @@ pub const CASES: &[Case] = &[
     grid_border::PML,
     grid_border::SHIFT,
     grid_step::STEP,
+    grid_shore::SHOALING,
+    grid_shore::STANDING,
+    grid_medium::PML,
+    grid_medium::COST,
     body_float::DRAFT,
     body_float::TICK,
+    rapier::DRAFT,
+    rapier::VS_OWN,
     facade::GPU_VS_CPU,
     facade::BODIES_EQUAL,
     harbour::SEAM,

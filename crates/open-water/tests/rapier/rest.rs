@@ -39,7 +39,7 @@ fn bodies_in_small_waves_stay_awake_and_dry_ones_sleep() {
     for tick in 0..60 * 30 {
         world.step();
         assert!(!world.bodies[wet].is_sleeping(), "tick {tick}");
-        assert!(tick < 600 || world.bodies[dry].is_sleeping(), "tick {tick}");
+        assert!(tick < 150 || world.bodies[dry].is_sleeping(), "tick {tick}");
     }
     assert!((world.bodies[dry].translation().y - 2.5).abs() < 0.02);
 }
