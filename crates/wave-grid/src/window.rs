@@ -10,6 +10,9 @@ use crate::{GridDesc, desc::TILE};
 pub(crate) const DEAD_BAND: f64 = 1.0;
 /// The fade is zero this close to the edge (cells), so that a cubic kernel of two cells reads only zeros there.
 const MARGIN: f64 = 3.0;
+/// Cells over which the fade rises from a feed's contour: the farther from it, the more the waves of the grid, of another
+/// dispersion, have come apart from those of the sea.
+const FED_FADE: f64 = 4.0;
 /// Cell indices beyond this are refused: f64 no longer resolves a cell there.
 const FARTHEST: f64 = 1e14;
 
@@ -129,7 +132,8 @@ impl Place {
         let contour = contour(self.pml_width) as f64;
         let low = if fed_low { contour } else { middle - outer };
         let high = if fed_high { cells - contour } else { middle + outer };
-        let t = ((x - low).min(high - x) / self.fade_width()).clamp(0.0, 1.0);
+        let width = |fed: bool| if fed { FED_FADE } else { self.fade_width() };
+        let t = ((x - low) / width(fed_low)).min((high - x) / width(fed_high)).clamp(0.0, 1.0);
         // NaN outside.
         if t > 0.0 { (t * t * (3.0 - 2.0 * t)) as f32 } else { 0.0 }
     }
