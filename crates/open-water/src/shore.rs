@@ -124,6 +124,10 @@ impl OpenWater {
         for grid in self.grids.iter_mut() {
             grid.set_medium(medium.clone());
         }
+        #[cfg(feature = "gpu")]
+        if let Some(gpu) = &mut self.gpu {
+            gpu.remote.set_medium(medium);
+        }
         let carriers: Vec<_> = self.grids.iter().filter_map(|grid| grid.fed()).map(|grid| self.carrier(grid)).collect();
         let baked = terrain.as_ref().map(|t| bake(t, self.ocean.as_ref(), &carriers)).unwrap_or_default();
         let feedings = self.feedings(terrain.as_ref(), &carriers, &baked)?;

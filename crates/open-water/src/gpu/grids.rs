@@ -2,10 +2,12 @@
 //!
 //! Nothing waits: a sample is as old as the last copy that has arrived, and says so.
 
+use std::sync::Arc;
+
 use glam::{DVec2, Vec2};
 use open_water_shaders::pipeline::Readback;
 use wave_grid::gpu::{GpuGridId, GpuGrids};
-use wave_grid::{GridSample, Source, Window};
+use wave_grid::{GridSample, Medium, Source, Window};
 
 use super::mirror::Mirror;
 use crate::OpenWaterError;
@@ -84,6 +86,11 @@ impl RemoteGrids {
 
     pub(crate) fn remove(&mut self, id: GpuGridId) {
         self.grids.remove(id);
+    }
+
+    /// What the waves of all grids travel through.
+    pub(crate) fn set_medium(&mut self, medium: Option<Arc<dyn Medium>>) {
+        self.grids.set_medium(medium);
     }
 
     /// Passes on what the tick brought, queues one tick of all grids, and takes what has come back.
