@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use open_water::{BodyDesc, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, OpenWater, Pose, Tick};
 use open_water_examples::{
-    Dice, Flotsam, Helm, Launch, Mark, NoMore, Options, Scene, SceneError, Setup, Subject, boat_mesh, run,
+    Dice, Flotsam, Helm, Launch, Mark, NoMore, Options, Scene, SceneError, Setup, Subject, boat_mesh, run, run_up,
 };
 use water_view::{DryHull, Instance, MeshId, MeshView};
 
@@ -113,12 +113,7 @@ impl Scene for Boat {
             last: start.position,
         };
         scene.scatter(options.seed)?;
-        let dt = scene.water.desc().tick;
-        for _ in 0..(LEAD / dt) as u32 {
-            for tick in scene.water.advance(dt) {
-                scene.tick(tick, Helm::default())?;
-            }
-        }
+        run_up(&mut scene, options, LEAD)?;
         Ok(scene)
     }
 

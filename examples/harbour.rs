@@ -12,7 +12,7 @@ use open_water::{
 use open_water_examples::harbour::{self, World};
 use open_water_examples::{
     Course, Dice, Flotsam, Helm, Kind, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh,
-    run,
+    run, run_up,
 };
 use water_view::{DryHull, Instance, MeshData, MeshId, MeshView, WaterLook};
 
@@ -21,7 +21,7 @@ const FLOTSAM: [u32; 2] = [255, 45];
 /// Full speed, m/s.
 const SPEED: f32 = 12.0;
 /// Seconds run before the first picture: waves enter the basin, flotsam settles.
-const LEAD: f32 = 24.0;
+const LEAD: f32 = 10.0;
 /// Nothing floats closer to a course or a wall at first, metres.
 const CLEAR: f32 = 7.0;
 
@@ -217,7 +217,8 @@ impl Scene for Harbour {
         let world = World::new(water.desc().tick, harbour::extent(&bed), |p| bed.elevation(p.as_dvec2()));
         let period = water.ocean().map_or(6.0, |ocean| ocean.peak_period());
         let basin = water.add_grid(harbour::basin(options.preset(), period))?;
-        let courses = [Course::new(ferry()), Course::new(round())];
+        let places = [Vec2::new(-150.0, 42.0), Vec2::new(6.0, -30.0)];
+        let courses = [Course::new(ferry(), places[0]), Course::new(round(), places[1])];
         let mut boats = Vec::new();
         for wake in [true, true, false] {
             let body = water.add_body(desc.clone())?;
@@ -243,8 +244,8 @@ impl Scene for Harbour {
             strayed: 0.0,
         };
         let starts = [
-            Self::start(Vec2::new(-206.0, 30.0), Vec2::new(-176.0, 58.0), 5.0),
-            Self::start(Vec2::new(6.0, -30.0), Vec2::new(20.0, -84.0), 5.0),
+            Self::start(places[0], Vec2::new(-132.0, 34.0), 5.0),
+            Self::start(places[1], Vec2::new(20.0, -84.0), 5.0),
             Self::start(scene.berth(), scene.berth() + Vec2::X, 0.0),
         ];
         for (boat, state) in scene.boats.iter().zip(starts) {
@@ -252,12 +253,7 @@ impl Scene for Harbour {
         }
         scene.moor(mass)?;
         scene.scatter(options.seed)?;
-        let dt = scene.water.desc().tick;
-        for _ in 0..(LEAD / dt) as u32 {
-            for tick in scene.water.advance(dt) {
-                scene.tick(tick, Helm::default())?;
-            }
-        }
+        run_up(&mut scene, options, LEAD)?;
         scene.way = 0.0;
         Ok(scene)
     }
@@ -360,7 +356,7 @@ impl Scene for Harbour {
 
     fn viewpoint(&self, index: usize) -> Option<Viewpoint> {
         let views = [
-            (Vec3::new(-205.0, 62.0, 150.0), Vec3::new(0.0, 0.0, -14.0)),
+            (Vec3::new(-196.0, 84.0, 128.0), Vec3::new(-22.0, 0.0, -8.0)),
             (Vec3::new(150.0, 4.6, -66.0), Vec3::new(112.0, 0.0, 20.0)),
             (Vec3::new(54.0, 5.2, -95.0), Vec3::new(32.0, 0.3, -112.0)),
         ];

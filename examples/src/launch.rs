@@ -53,7 +53,8 @@ impl Launch {
         let cell = (at - grid.window().local_corner(DVec2::ZERO)) / desc.cell_size;
         let inside = cell.cmpge(Vec2::ZERO).all() && cell.x < desc.cells[0] as f32 && cell.y < desc.cells[1] as f32;
         let index = cell.y as usize * desc.cells[0] as usize + cell.x as usize;
-        if inside { self.cells.get(index).map_or(0.0, |cell| cell[1]) } else { 0.0 }
+        let fade = grid.fade_at(at.as_dvec2());
+        if inside { self.cells.get(index).map_or(0.0, |cell| fade * cell[1]) } else { 0.0 }
     }
 
     /// Its outline from above at `pose`.
@@ -82,9 +83,16 @@ pub struct Course {
 }
 
 impl Course {
-    /// Starts towards the second mark. There must be two at least; a course of fewer steers nowhere.
-    pub fn new(marks: Vec<(Vec2, f32)>) -> Self {
-        let next = 1 % marks.len().max(1);
+    /// Starts along the leg that is nearest to `place`. There must be two marks at least; a course of fewer steers
+    /// nowhere.
+    pub fn new(marks: Vec<(Vec2, f32)>, place: Vec2) -> Self {
+        let n = marks.len().max(1);
+        let off = |next: usize| {
+            let (from, to) = (marks[(next + n - 1) % n].0, marks[next].0);
+            let along = ((place - from).dot(to - from) / (to - from).length_squared().max(1e-6)).clamp(0.0, 1.0);
+            place.distance(from.lerp(to, along))
+        };
+        let next = (0..marks.len()).min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap_or(0);
         Self { marks, next }
     }
 
@@ -125,7 +133,8 @@ mod tests {
     #[test]
     fn a_boat_that_turns_with_its_rudder_rounds_the_marks() {
         let marks = [(0.0, 0.0), (80.0, 0.0), (80.0, 60.0), (0.0, 60.0)].map(|(x, z)| (Vec2::new(x, z), 0.5));
-        let mut course = Course::new(marks.to_vec());
+        let mut course = Course::new(marks.to_vec(), Vec2::new(2.0, -6.0));
+        assert_eq!(course.next, 1);
         let (mut at, mut heading) = (Vec2::new(2.0, -6.0), 0.0f32);
         let mut far = 0.0f32;
         let mut passed = std::collections::BTreeSet::new();
@@ -145,7 +154,7 @@ mod tests {
 
     #[test]
     fn a_course_of_one_mark_goes_nowhere() {
-        assert_eq!(Course::new(vec![(Vec2::ONE, 1.0)]).steer(Vec3::ZERO, Vec3::X), [0.0; 2]);
-        assert_eq!(Course::new(Vec::new()).steer(Vec3::ZERO, Vec3::X), [0.0; 2]);
+        assert_eq!(Course::new(vec![(Vec2::ONE, 1.0)], Vec2::ZERO).steer(Vec3::ZERO, Vec3::X), [0.0; 2]);
+        assert_eq!(Course::new(Vec::new(), Vec2::ZERO).steer(Vec3::ZERO, Vec3::X), [0.0; 2]);
     }
 }

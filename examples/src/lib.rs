@@ -28,7 +28,7 @@ pub use flotsam::{Flotsam, Kind};
 pub use launch::{Course, Launch};
 pub use options::{Backend, Options, Quality, Setup};
 pub use props::{barrel, boat_mesh, crate_box, hull_mesh};
-pub use scene::{Helm, Mark, NoMore, Scene, Subject, Viewpoint};
+pub use scene::{Helm, Mark, NoMore, Scene, Subject, Viewpoint, run_up};
 
 use std::process::ExitCode;
 

@@ -63,6 +63,9 @@ pub struct Options {
     /// Which camera: 1 follows the boat, 2 circles it, 3 and up stand where the scene puts them
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=9))]
     pub view: u32,
+    /// Seconds of the scene run before the first picture, 0 to 600 [default: as the scene needs]
+    #[arg(long, value_name = "S", value_parser = parse_lead)]
+    pub lead: Option<f32>,
     /// Chooses the phases of the waves and where the flotsam lies
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
@@ -87,6 +90,14 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
         Some(size) if size.iter().all(|n| (16..=8192).contains(n)) => Ok(size),
         Some([w, h]) => Err(format!("{w}x{h} is out of 16x16 to 8192x8192")),
         None => Err("not of the form WxH, as 1280x720".into()),
+    }
+}
+
+fn parse_lead(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(lead) if (0.0..=600.0).contains(&lead) => Ok(lead),
+        Ok(lead) => Err(format!("{lead} is out of 0 to 600 s")),
+        Err(error) => Err(error.to_string()),
     }
 }
 
@@ -168,6 +179,14 @@ mod tests {
         assert!(parse_size("1280").is_err());
         assert!(parse_size("0x720").unwrap_err().contains("0x720"));
         assert!(parse_size("-1x720").is_err());
+    }
+
+    #[test]
+    fn leads() {
+        assert_eq!(parse_lead("12.5"), Ok(12.5));
+        for bad in ["-1", "601", "NaN", "inf", "soon"] {
+            assert!(parse_lead(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

@@ -151,6 +151,18 @@ pub trait Scene: Sized + 'static {
     fn summary(&self) -> Vec<(&'static str, String)>;
 }
 
+/// Runs the scene for the seconds before its first picture: as asked, else `lead`.
+///
+/// # Errors
+/// The simulation went wrong.
+pub fn run_up<S: Scene>(scene: &mut S, options: &Options, lead: f32) -> Result<(), SceneError> {
+    let dt = scene.water().desc().tick;
+    for _ in 0..(options.lead.unwrap_or(lead) / dt) as u32 {
+        advance(scene, dt, Helm::default())?;
+    }
+    Ok(())
+}
+
 /// Runs the ticks that are due after `dt` seconds and returns how many.
 pub(crate) fn advance<S: Scene>(scene: &mut S, dt: f32, helm: Helm) -> Result<u32, SceneError> {
     let mut count = 0;
