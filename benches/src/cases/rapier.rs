@@ -5,10 +5,7 @@ use floating_body::{Closure, Hull, TriMesh, WATER_DENSITY};
 use glam::{Quat, Vec3};
 use open_water::rapier::{GRAVITY, RapierBodies};
 use open_water::{BodyDesc, BodyId, BodyState, BodyStates, BodyStore, CascadeDesc, OpenWater, OpenWaterDesc, SeaState};
-use rapier3d::prelude::{
-    BroadPhaseBvh, CCDSolver, ColliderSet, ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet,
-    NarrowPhase, PhysicsPipeline, Pose, RigidBodyHandle, RigidBodySet, SoftBodySet,
-};
+use rapier3d::prelude::{PhysicsWorld, Pose, RigidBodyHandle};
 
 use crate::evidence::{Case, CaseError, Context, Row};
 
@@ -36,10 +33,7 @@ struct World {
     floating: RapierBodies,
     id: BodyId,
     handle: RigidBodyHandle,
-    bodies: RigidBodySet,
-    colliders: ColliderSet,
-    physics: (PhysicsPipeline, IslandManager, BroadPhaseBvh, NarrowPhase, CCDSolver),
-    joints: (ImpulseJointSet, MultibodyJointSet, SoftBodySet),
+    physics: PhysicsWorld,
 }
 
 impl World {
@@ -48,45 +42,26 @@ impl World {
         let id = water.add_body(desc.clone())?;
         let mut state = water.body(id)?.state();
         change(&mut state);
-        let (mut bodies, mut colliders) = (RigidBodySet::new(), ColliderSet::new());
+        let mut physics = PhysicsWorld::new();
+        (physics.gravity, physics.integration_parameters.dt) = (GRAVITY, DT);
         let mut floating = RapierBodies::default();
-        let handle = floating.spawn(&water, id, state, &mut bodies, &mut colliders)?;
-        let joints = (ImpulseJointSet::new(), MultibodyJointSet::new(), SoftBodySet::new());
-        let physics =
-            (PhysicsPipeline::new(), IslandManager::new(), BroadPhaseBvh::new(), NarrowPhase::new(), CCDSolver::new());
-        Ok(Self { water, floating, id, handle, bodies, colliders, physics, joints })
+        let handle = floating.spawn(&water, id, state, &mut physics.bodies, &mut physics.colliders)?;
+        Ok(Self { water, floating, id, handle, physics })
     }
 
     /// A tick; the body's state after it.
     fn step(&mut self) -> Result<BodyState, CaseError> {
-        let parameters = IntegrationParameters { dt: DT, ..IntegrationParameters::default() };
-        let (pipeline, islands, broad_phase, narrow_phase, ccd) = &mut self.physics;
-        let (impulse, multibody, soft) = &mut self.joints;
         for tick in self.water.advance(DT) {
-            self.water.tick(tick, &mut self.floating.store(&mut self.bodies))?;
-            pipeline.step(
-                GRAVITY,
-                &parameters,
-                islands,
-                broad_phase,
-                narrow_phase,
-                &mut self.bodies,
-                &mut self.colliders,
-                impulse,
-                multibody,
-                soft,
-                ccd,
-                &(),
-                &(),
-            );
+            self.water.tick(tick, &mut self.floating.store(&mut self.physics.bodies))?;
+            self.physics.step();
         }
-        self.floating.store(&mut self.bodies).read(self.id).ok_or_else(|| "the body is gone".into())
+        self.floating.store(&mut self.physics.bodies).read(self.id).ok_or_else(|| "the body is gone".into())
     }
 
     /// Puts the body into a state.
     fn set(&mut self, state: &BodyState) -> Result<(), CaseError> {
         let center = self.water.body(self.id)?.desc().center_of_mass;
-        let rigid = &mut self.bodies[self.handle];
+        let rigid = &mut self.physics.bodies[self.handle];
         let place = state.position - state.orientation * center;
         rigid.set_position(Pose::from_parts(place, state.orientation), true);
         rigid.set_linvel(state.velocity, true);
@@ -174,7 +149,7 @@ fn draft(_context: &Context) -> Result<Vec<Row>, CaseError> {
         for _ in 0..60 * 90 {
             world.step()?;
         }
-        let rigid = &world.bodies[world.handle];
+        let rigid = &world.physics.bodies[world.handle];
         let draft = -f64::from(rigid.translation().y + shape.desc.hull.bounds().0.y);
         rows.push(
             Row::new("rapier_draft", shape.name)

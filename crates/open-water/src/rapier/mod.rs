@@ -10,31 +10,24 @@
 //! use rapier3d::prelude::*;
 //!
 //! let mut water = OpenWater::headless(OpenWaterDesc::default())?;
-//! let mut pipeline = PhysicsPipeline::new();
-//! let (mut islands, mut broad_phase, mut narrow_phase) = (IslandManager::new(), BroadPhaseBvh::new(), NarrowPhase::new());
-//! let (mut bodies, mut colliders) = (RigidBodySet::new(), ColliderSet::new());
-//! let (mut joints, mut multibodies, mut soft) = (ImpulseJointSet::new(), MultibodyJointSet::new(), SoftBodySet::new());
-//! let mut ccd = CCDSolver::new();
-//! let parameters = IntegrationParameters { dt: water.desc().tick, ..IntegrationParameters::default() };
+//! let mut world = PhysicsWorld::new();
+//! (world.gravity, world.integration_parameters.dt) = (GRAVITY, water.desc().tick);
 //!
 //! // A quay, known to Rapier only, and a crate, known to both.
-//! colliders.insert(ColliderBuilder::cuboid(1.0, 5.0, 20.0).translation(Vec3::new(4.0, 0.0, 0.0)));
+//! world.insert_collider(ColliderBuilder::cuboid(1.0, 5.0, 20.0).translation(Vec3::new(4.0, 0.0, 0.0)), None);
 //! let mut floating = RapierBodies::default();
 //! let id = water.add_body(BodyDesc::from_hull(&Hull::cuboid(Vec3::splat(1.0))?, 400.0))?;
 //! let start = BodyState::at_rest(Vec3::new(0.0, 1.0, 0.0));
-//! let handle = floating.spawn(&water, id, start, &mut bodies, &mut colliders)?;
+//! let handle = floating.spawn(&water, id, start, &mut world.bodies, &mut world.colliders)?;
 //!
 //! for _frame in 0..120 {
 //!     for tick in water.advance(1.0 / 60.0) {
-//!         water.tick(tick, &mut floating.store(&mut bodies))?;
-//!         pipeline.step(
-//!             GRAVITY, &parameters, &mut islands, &mut broad_phase, &mut narrow_phase, &mut bodies, &mut colliders,
-//!             &mut joints, &mut multibodies, &mut soft, &mut ccd, &(), &(),
-//!         );
+//!         water.tick(tick, &mut floating.store(&mut world.bodies))?;
+//!         world.step();
 //!     }
-//!     let _where_to_draw_it = floating.drawn_pose(&water, &bodies, id);
+//!     let _where_to_draw_it = floating.drawn_pose(&water, &world.bodies, id);
 //! }
-//! assert!(bodies[handle].translation().x < 2.51 && bodies[handle].translation().y > -1.5);
+//! assert!(world.bodies[handle].translation().x < 2.51 && world.bodies[handle].translation().y > -1.5);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -43,7 +36,8 @@
 //! - **Mass** comes from the description ([`rigid_body`] sets it), so colliders must have density 0. What a game adds
 //!   later, such as cargo, is plain mass to Rapier.
 //! - **Added mass** is in the wrench: without contact the body moves as `(M + A)^-1` of all forces. Contacts and joints
-//!   feel `M` only.
+//!   feel `M` only: wind presses a hull on to its fenders with `M / (M + A)` of its force, 0.84 for a launch abeam.
+//!   Moorings ([`OpenWater::add_mooring`](crate::OpenWater::add_mooring)) feel all.
 //! - **Forces of your own.** A tick sets the rigid body's user force and torque anew; it is how the water acts. Add yours
 //!   between tick and step, as impulses, or through [`Controls`](crate::Controls), where they feel added mass.
 //! - **Time.** One physics step of the same length per tick, with four or more solver iterations (Rapier's default), and

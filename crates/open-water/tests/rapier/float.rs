@@ -15,9 +15,9 @@ fn a_cuboid_and_a_boat_float_at_their_draft() {
     let (_, cuboid) = world.spawn(crate_desc(), Vec3::Y);
     world.run(60.0);
     // The frame is the hull's: the keel is its origin.
-    let draft = -world.bodies[boat].translation().y;
+    let draft = -world.rigid(boat).translation().y;
     assert!((draft / expected - 1.0).abs() < 0.01, "boat: {draft}");
-    let draft = 0.3 - world.bodies[cuboid].translation().y;
+    let draft = 0.3 - world.rigid(cuboid).translation().y;
     assert!((draft / DRAFT - 1.0).abs() < 0.01, "crate: {draft}");
 }
 
@@ -31,7 +31,7 @@ fn a_barge_with_more_added_mass_than_mass_swings_in_its_period_and_comes_to_rest
     let (mut crossings, mut before, mut late) = (Vec::new(), 0.5, 0.0_f32);
     for tick in 0..60 * 300 {
         world.step();
-        let y = world.bodies[barge].translation().y;
+        let y = world.rigid(barge).translation().y;
         if before < 0.0 && y >= 0.0 && tick < 60 * 20 {
             crossings.push(tick as f32 * DT);
         }
@@ -55,18 +55,18 @@ fn several_colliders_and_a_mass_centre_off_the_origin() {
     let mut world = World::calm();
     let id = world.water.add_body(desc).unwrap();
     let body = world.water.body(id).unwrap();
-    let handle = world.bodies.insert(rigid_body(body, &BodyState::at_rest(Vec3::new(1.0, 0.6, 0.0))));
+    let handle = world.physics.bodies.insert(rigid_body(body, &BodyState::at_rest(Vec3::new(1.0, 0.6, 0.0))));
     for x in [-1.5, 0.0, 1.5] {
         let part = ColliderBuilder::cuboid(0.7, 0.3, 1.0).translation(Vec3::new(x, 0.6, 0.0)).density(0.0);
-        world.colliders.insert_with_parent(part, handle, &mut world.bodies);
+        world.physics.colliders.insert_with_parent(part, handle, &mut world.physics.bodies);
     }
-    world.floating.insert(&world.water, id, handle, &mut world.bodies, &world.colliders).unwrap();
+    world.floating.insert(&world.water, id, handle, &mut world.physics.bodies, &world.physics.colliders).unwrap();
     world.run(60.0);
-    let (own, rigid) = (world.water.body(id).unwrap().state(), &world.bodies[handle]);
+    let (own, rigid) = (world.water.body(id).unwrap().state(), world.rigid(handle));
     assert!((rigid.center_of_mass() - own.position).length() < 1e-3, "{} {}", rigid.center_of_mass(), own.position);
     // Trimmed by the head, as its weight lies, and afloat.
     assert!((rigid.rotation() * Vec3::X).y < -0.01 && own.position.y.abs() < 1.0, "{:?}", rigid.position());
-    let drawn = world.floating.drawn_pose(&world.water, &world.bodies, id).unwrap();
+    let drawn = world.floating.drawn_pose(&world.water, &world.physics.bodies, id).unwrap();
     assert!((drawn.position - rigid.translation()).length() < 1e-2);
 }
 
@@ -75,14 +75,14 @@ fn a_blow_is_taken_up_by_the_water_and_the_game_can_add_forces() {
     let mut world = World::calm();
     let (_, handle) = world.spawn(crate_desc(), Vec3::Y * 0.1);
     world.run(10.0);
-    world.bodies[handle].apply_impulse(Vec3::X * MASS, true);
-    assert!((world.bodies[handle].linvel().x - 1.0).abs() < 1e-3);
+    world.physics.bodies[handle].apply_impulse(Vec3::X * MASS, true);
+    assert!((world.rigid(handle).linvel().x - 1.0).abs() < 1e-3);
     world.run(20.0);
-    let gone = world.bodies[handle].translation().x;
-    assert!(world.bodies[handle].linvel().length() < 0.15 && (0.3..8.0).contains(&gone), "{gone} m");
+    let gone = world.rigid(handle).translation().x;
+    assert!(world.rigid(handle).linvel().length() < 0.15 && (0.3..8.0).contains(&gone), "{gone} m");
     // A force between tick and step acts in that step and stays no longer.
-    let before = world.bodies[handle].user_force();
-    world.bodies[handle].add_force(Vec3::X * 1.0e4, true);
+    let before = world.rigid(handle).user_force();
+    world.physics.bodies[handle].add_force(Vec3::X * 1.0e4, true);
     world.step();
-    assert!((world.bodies[handle].user_force() - before).length() < 400.0, "{}", world.bodies[handle].user_force());
+    assert!((world.rigid(handle).user_force() - before).length() < 400.0, "{}", world.rigid(handle).user_force());
 }

@@ -5,7 +5,7 @@ use crate::world::*;
 #[test]
 fn a_crate_driven_against_a_quay_stays_outside() {
     let mut world = choppy();
-    world.colliders.insert(ColliderBuilder::cuboid(1.0, 8.0, 60.0).translation(Vec3::new(6.0, 0.0, 0.0)));
+    world.physics.colliders.insert(ColliderBuilder::cuboid(1.0, 8.0, 60.0).translation(Vec3::new(6.0, 0.0, 0.0)));
     let (id, handle) = world.spawn(crate_desc(), Vec3::Y);
     // Wind and waves push it on to the quay, whose face is at x = 5.
     let wind = Controls { force: Vec3::X * 300.0, ..Controls::default() };
@@ -13,7 +13,7 @@ fn a_crate_driven_against_a_quay_stays_outside() {
     let (mut touching, mut tall) = (0, 0.0_f32);
     for tick in 0..60 * 40 {
         world.step();
-        let pose = *world.bodies[handle].position();
+        let pose = *world.rigid(handle).position();
         assert!(pose.is_finite());
         let corners = (0..8).map(|i| {
             let sign = |bit: u32| if i >> bit & 1 == 1 { 0.5 } else { -0.5 };
@@ -23,7 +23,7 @@ fn a_crate_driven_against_a_quay_stays_outside() {
         assert!(reach < 5.05, "tick {tick}: {reach}");
         touching += u32::from(reach > 4.97);
         tall = tall.max(pose.translation.y.abs());
-        assert!(world.bodies[handle].linvel().length() < 6.0, "{:?}", world.bodies[handle].linvel());
+        assert!(world.rigid(handle).linvel().length() < 6.0, "{:?}", world.rigid(handle).linvel());
     }
     assert!(touching > 500 && tall < 3.0, "{touching} ticks at the quay, {tall} m");
 }
@@ -34,35 +34,27 @@ fn whatever_becomes_of_a_rigid_body_the_water_goes_on() {
     let spawned: Vec<_> = (0..6).map(|i| world.spawn(crate_desc(), Vec3::new(4.0 * i as f32, 0.5, 0.0))).collect();
     world.run(1.0);
     let handle = |i: usize| spawned[i].1;
-    world.bodies[handle(0)].set_enabled(false);
-    world.bodies[handle(1)].set_body_type(RigidBodyType::Fixed, true);
-    world.bodies[handle(2)].set_body_type(RigidBodyType::KinematicVelocityBased, true);
-    world.bodies[handle(2)].set_linvel(Vec3::new(0.0, 0.0, 2.0), true);
-    world.bodies.remove(
-        handle(3),
-        &mut world.islands,
-        &mut world.colliders,
-        &mut world.joints,
-        &mut world.multibodies,
-        &mut world.soft,
-        true,
-    );
+    world.physics.bodies[handle(0)].set_enabled(false);
+    world.physics.bodies[handle(1)].set_body_type(RigidBodyType::Fixed, true);
+    world.physics.bodies[handle(2)].set_body_type(RigidBodyType::KinematicVelocityBased, true);
+    world.physics.bodies[handle(2)].set_linvel(Vec3::new(0.0, 0.0, 2.0), true);
+    world.physics.remove_body(handle(3)).unwrap();
     world.water.remove_body(spawned[4].0).unwrap();
-    assert_eq!(world.floating.remove(spawned[4].0, &mut world.bodies), Some(handle(4)));
-    assert_eq!(world.bodies[handle(4)].user_force(), Vec3::ZERO);
-    let (disabled, fixed) = (*world.bodies[handle(0)].position(), *world.bodies[handle(1)].position());
+    assert_eq!(world.floating.remove(spawned[4].0, &mut world.physics.bodies), Some(handle(4)));
+    assert_eq!(world.rigid(handle(4)).user_force(), Vec3::ZERO);
+    let (disabled, fixed) = (*world.rigid(handle(0)).position(), *world.rigid(handle(1)).position());
     world.run(5.0);
-    assert_eq!(disabled, *world.bodies[handle(0)].position());
-    assert_eq!(fixed.translation, world.bodies[handle(1)].translation());
-    assert!((world.bodies[handle(2)].translation().z - 10.0).abs() < 0.2);
+    assert_eq!(disabled, *world.rigid(handle(0)).position());
+    assert_eq!(fixed.translation, world.rigid(handle(1)).translation());
+    assert!((world.rigid(handle(2)).translation().z - 10.0).abs() < 0.2);
     assert!(world.water.drawn_pose(spawned[3].0).is_none());
     // It knows no water any more.
-    assert!(world.bodies[handle(4)].translation().y < -50.0);
-    world.bodies[handle(0)].set_enabled(true);
-    world.bodies[handle(1)].set_body_type(RigidBodyType::Dynamic, true);
+    assert!(world.rigid(handle(4)).translation().y < -50.0);
+    world.physics.bodies[handle(0)].set_enabled(true);
+    world.physics.bodies[handle(1)].set_body_type(RigidBodyType::Dynamic, true);
     world.run(10.0);
     for i in [0, 1, 5] {
-        assert!(world.bodies[handle(i)].translation().y.abs() < 2.0, "{i}: {:?}", world.bodies[handle(i)].position());
+        assert!(world.rigid(handle(i)).translation().y.abs() < 2.0, "{i}: {:?}", world.rigid(handle(i)).position());
     }
 }
 
@@ -73,10 +65,13 @@ fn rigid_bodies_that_are_not_the_body_are_refused() {
     let (other, taken) = world.spawn(crate_desc(), Vec3::X * 9.0);
     let state = BodyState::at_rest(Vec3::ZERO);
     let mut insert = |builder: RigidBodyBuilder, density: f32| {
-        let handle = world.bodies.insert(builder);
+        let handle = world.physics.bodies.insert(builder);
         let collider = ColliderBuilder::cuboid(0.6, 0.3, 0.5).density(density);
-        world.colliders.insert_with_parent(collider, handle, &mut world.bodies);
-        world.floating.insert(&world.water, id, handle, &mut world.bodies, &world.colliders).map(|()| handle)
+        world.physics.colliders.insert_with_parent(collider, handle, &mut world.physics.bodies);
+        world
+            .floating
+            .insert(&world.water, id, handle, &mut world.physics.bodies, &world.physics.colliders)
+            .map(|()| handle)
     };
     let builder = rigid_body(world.water.body(id).unwrap(), &state);
     let error = insert(builder.clone(), 83.4).unwrap_err().to_string();
@@ -92,9 +87,15 @@ fn rigid_bodies_that_are_not_the_body_are_refused() {
     let turns = MassProperties::new(Vec3::ZERO, MASS, Vec3::splat(90.0));
     let refused = insert(builder.additional_mass_properties(turns), 0.0).unwrap_err().to_string();
     assert!(refused.contains("inertia about x"), "{refused}");
-    let again = world.floating.insert(&world.water, id, taken, &mut world.bodies, &world.colliders);
+    let again = world.floating.insert(&world.water, id, taken, &mut world.physics.bodies, &world.physics.colliders);
     assert!(matches!(again, Err(RapierError::Taken { body, .. }) if body == other), "{again:?}");
-    let gone = world.floating.insert(&world.water, id, RigidBodyHandle::invalid(), &mut world.bodies, &world.colliders);
+    let gone = world.floating.insert(
+        &world.water,
+        id,
+        RigidBodyHandle::invalid(),
+        &mut world.physics.bodies,
+        &world.physics.colliders,
+    );
     assert!(matches!(gone, Err(RapierError::UnknownRigidBody(_))), "{gone:?}");
     assert_eq!(world.floating.handle(id), Some(fits));
     assert_eq!(world.floating.body(fits), Some(id));
@@ -109,9 +110,9 @@ fn flotsam_may_live_in_a_store_of_its_own() {
     flotsam.insert(id, BodyState::at_rest(Vec3::Y * 3.0));
     for _ in 0..120 {
         for tick in world.water.advance(DT) {
-            world.water.tick(tick, &mut world.floating.store(&mut world.bodies).or(&mut flotsam)).unwrap();
+            world.water.tick(tick, &mut world.floating.store(&mut world.physics.bodies).or(&mut flotsam)).unwrap();
         }
     }
     assert!(flotsam.get(id).unwrap().position.y < 1.5);
-    assert!(world.bodies[boat].user_force().y > 0.0);
+    assert!(world.rigid(boat).user_force().y > 0.0);
 }

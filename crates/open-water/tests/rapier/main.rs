@@ -3,5 +3,6 @@
 
 mod float;
 mod live;
+mod moored;
 mod rest;
 mod world;

@@ -4,8 +4,8 @@ pub(crate) use glam::{DVec2, Vec3};
 pub(crate) use open_water::rapier::rapier3d::prelude::*;
 pub(crate) use open_water::rapier::{GRAVITY, RapierBodies, RapierError, rigid_body};
 pub(crate) use open_water::{
-    BodyDesc, BodyId, BodyState, BodyStates, CascadeDesc, Closure, Controls, Follow, GridDesc, Hull, OpenWater,
-    OpenWaterDesc, Preset, Radiation, SeaState, TriMesh,
+    BodyDesc, BodyId, BodyState, BodyStates, CascadeDesc, Closure, Controls, Follow, GridDesc, Hull, Mooring,
+    MooringId, MooringLine, OpenWater, OpenWaterDesc, Preset, Radiation, SeaState, TriMesh,
 };
 
 pub(crate) const DT: f32 = 1.0 / 60.0;
@@ -14,34 +14,14 @@ pub(crate) const DT: f32 = 1.0 / 60.0;
 pub(crate) struct World {
     pub(crate) water: OpenWater,
     pub(crate) floating: RapierBodies,
-    pub(crate) bodies: RigidBodySet,
-    pub(crate) colliders: ColliderSet,
-    pub(crate) joints: ImpulseJointSet,
-    pub(crate) multibodies: MultibodyJointSet,
-    pub(crate) soft: SoftBodySet,
-    pub(crate) islands: IslandManager,
-    pub(crate) pipeline: PhysicsPipeline,
-    pub(crate) broad_phase: BroadPhaseBvh,
-    pub(crate) narrow_phase: NarrowPhase,
-    pub(crate) ccd: CCDSolver,
+    pub(crate) physics: PhysicsWorld,
 }
 
 impl World {
     pub(crate) fn new(desc: OpenWaterDesc) -> Self {
-        Self {
-            water: OpenWater::headless(desc).unwrap(),
-            floating: RapierBodies::default(),
-            bodies: RigidBodySet::new(),
-            colliders: ColliderSet::new(),
-            joints: ImpulseJointSet::new(),
-            multibodies: MultibodyJointSet::new(),
-            soft: SoftBodySet::new(),
-            islands: IslandManager::new(),
-            pipeline: PhysicsPipeline::new(),
-            broad_phase: BroadPhaseBvh::new(),
-            narrow_phase: NarrowPhase::new(),
-            ccd: CCDSolver::new(),
-        }
+        let mut physics = PhysicsWorld::new();
+        (physics.gravity, physics.integration_parameters.dt) = (GRAVITY, DT);
+        Self { water: OpenWater::headless(desc).unwrap(), floating: RapierBodies::default(), physics }
     }
 
     pub(crate) fn calm() -> Self {
@@ -53,30 +33,20 @@ impl World {
     pub(crate) fn spawn(&mut self, desc: BodyDesc, place: Vec3) -> (BodyId, RigidBodyHandle) {
         let id = self.water.add_body(desc).unwrap();
         let state = BodyState::at_rest(place);
-        let handle = self.floating.spawn(&self.water, id, state, &mut self.bodies, &mut self.colliders).unwrap();
+        let World { water, floating, physics } = self;
+        let handle = floating.spawn(water, id, state, &mut physics.bodies, &mut physics.colliders).unwrap();
         (id, handle)
     }
 
     pub(crate) fn step(&mut self) {
-        let parameters = IntegrationParameters { dt: DT, ..IntegrationParameters::default() };
         for tick in self.water.advance(DT) {
-            self.water.tick(tick, &mut self.floating.store(&mut self.bodies)).unwrap();
-            self.pipeline.step(
-                GRAVITY,
-                &parameters,
-                &mut self.islands,
-                &mut self.broad_phase,
-                &mut self.narrow_phase,
-                &mut self.bodies,
-                &mut self.colliders,
-                &mut self.joints,
-                &mut self.multibodies,
-                &mut self.soft,
-                &mut self.ccd,
-                &(),
-                &(),
-            );
+            self.water.tick(tick, &mut self.floating.store(&mut self.physics.bodies)).unwrap();
+            self.physics.step();
         }
+    }
+
+    pub(crate) fn rigid(&self, handle: RigidBodyHandle) -> &RigidBody {
+        &self.physics.bodies[handle]
     }
 
     pub(crate) fn run(&mut self, seconds: f32) {
