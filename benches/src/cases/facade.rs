@@ -47,7 +47,7 @@ fn view() -> [View; 1] {
 }
 
 /// Plans, encodes, submits and waits for a frame.
-fn draw(gpu: &Gpu, water: &mut OpenWater) -> Result<u32, CaseError> {
+pub(super) fn draw(gpu: &Gpu, water: &mut OpenWater) -> Result<u32, CaseError> {
     let plan = water.plan(&view(), Consumers::NORMALS | Consumers::FOAM);
     gpu.run(|encoder| water.encode(&plan, encoder))?;
     Ok(plan.dispatches())
@@ -103,7 +103,7 @@ fn gpu_vs_cpu(context: &Context) -> Result<Vec<Row>, CaseError> {
 }
 
 /// Answers of `surface_at` on the GPU: height and normal.
-fn probe(gpu: &Gpu, water: &OpenWater, points: &[Vec2]) -> Result<Vec<[f32; 4]>, CaseError> {
+pub(super) fn probe(gpu: &Gpu, water: &OpenWater, points: &[Vec2]) -> Result<Vec<[f32; 4]>, CaseError> {
     let (Some(group), Some(layout)) = (water.surface_bind_group(), water.surface_layout()) else {
         return Err("no bind group of the surface".into());
     };

@@ -1,4 +1,4 @@
-//! Cases of land: `seam`, `basin`.
+//! Cases of land: `seam`, `basin`, `gpu_vs_cpu_land`.
 
 use glam::{DVec2, Vec2};
 use ocean_spectrum::SeaState;
@@ -7,9 +7,10 @@ use open_water::{
     WaterSample,
 };
 
+use super::facade::{draw, probe};
 use crate::{
     evidence::{Case, CaseError, Context, Row, measure},
-    fixtures::FRAME,
+    fixtures::{FRAME, Random},
 };
 
 /// See the module.
@@ -28,6 +29,14 @@ pub(super) const BASIN: Case = Case {
     run: basin,
 };
 
+/// See the module.
+pub(super) const GPU_VS_CPU: Case = Case {
+    name: "gpu_vs_cpu_land",
+    about: "the drawn surface over land at high water, with a fed grid, on the GPU against the CPU's answer",
+    plots: &[],
+    run: gpu_vs_cpu,
+};
+
 /// Depth, metres, side of the map, metres, and significant height, metres, and peak period, seconds, of the sea.
 const DEPTH: f32 = 10.0;
 const SIDE: f32 = 400.0;
@@ -41,7 +50,7 @@ const SPEED: f32 = 9.37;
 fn sea() -> OpenWaterDesc {
     OpenWaterDesc {
         sea: SeaState { depth: Some(DEPTH), ..SeaState::height_period(HS, PERIOD, 0.0) },
-        cascades: vec![CascadeDesc { size: 128, tile: 400.0 }, CascadeDesc { size: 32, tile: 75.0 }],
+        cascades: vec![CascadeDesc { size: 128, tile: 400.0 }, CascadeDesc { size: 128, tile: 75.0 }],
         ..OpenWaterDesc::default()
     }
 }
@@ -121,15 +130,20 @@ fn seam(context: &Context) -> Result<Vec<Row>, CaseError> {
     Ok(squares.into_iter().zip(lines).map(row).collect())
 }
 
-fn basin(context: &Context) -> Result<Vec<Row>, CaseError> {
-    let mut water = OpenWater::headless(sea())?;
+/// The bay behind a breakwater with a gap of 40 m.
+fn harbour() -> Result<Land, CaseError> {
     let mut land = Land::new(bed(100.0)?);
     let wall = |low: f64, high: f64| Obstacle {
         outline: [[180.0, low], [190.0, low], [190.0, high], [180.0, high]].map(DVec2::from_array).to_vec(),
         kind: ObstacleKind::Reflecting,
     };
     land.obstacles = vec![wall(-10.0, 180.0), wall(220.0, 410.0)];
-    water.set_land(Some(land))?;
+    Ok(land)
+}
+
+fn basin(context: &Context) -> Result<Vec<Row>, CaseError> {
+    let mut water = OpenWater::headless(sea())?;
+    water.set_land(Some(harbour()?))?;
     water.add_grid(grid(Edges { low_x: true, ..Edges::default() }))?;
     for _ in 0..60 * 60 {
         tick(&mut water)?;
@@ -169,4 +183,38 @@ fn basin(context: &Context) -> Result<Vec<Row>, CaseError> {
         Row::new("basin", "tick").param("cells", u64::from(CELLS * CELLS)).time("a tick of sea and basin", &timing),
     );
     Ok(rows)
+}
+
+fn gpu_vs_cpu(context: &Context) -> Result<Vec<Row>, CaseError> {
+    const POINTS: usize = 10_000;
+    let gpu = context.gpu()?;
+    let mut water = OpenWater::new(&gpu.device, &gpu.queue, sea())?;
+    water.set_land(Some(harbour()?))?;
+    water.add_grid(grid(Edges { low_x: true, ..Edges::default() }))?;
+    water.set_level(0.75)?;
+    for _ in 0..context.pick(1200, 3600) {
+        tick(&mut water)?;
+    }
+    let mut random = Random::new(3);
+    let mut place = || random.within(-40.0, f64::from(SIDE) + 40.0) as f32;
+    let points: Vec<Vec2> = (0..POINTS).map(|_| Vec2::new(place(), place())).collect();
+    let mut truth = vec![WaterSample::default(); POINTS];
+    water.sample(&points, &mut truth);
+    // With nothing left over, a frame draws the tick before its last one: that of the answers.
+    tick(&mut water)?;
+    draw(gpu, &mut water)?;
+    let made = probe(gpu, &water, &points)?;
+    let (mut worst, mut worst_normal) = (0.0f64, 0.0f64);
+    for (made, truth) in made.iter().zip(&truth).filter(|(_, truth)| !truth.folded) {
+        let difference = f64::from(made[0] - truth.height).abs();
+        worst = if difference.is_nan() { f64::NAN } else { worst.max(difference) };
+        worst_normal = worst_normal.max(f64::from(glam::Vec3::from_slice(&made[1..]).distance(truth.normal)));
+    }
+    Ok(vec![
+        Row::new("gpu_vs_cpu_land", gpu.adapter.kind.clone())
+            .param("points", POINTS)
+            .param("worst_normal", (worst_normal * 1e5).round() / 1e5)
+            .error(worst * 1e3, "mm", "the CPU's answers from the same modes, maps and grid; worst point")
+            .bound(1.0),
+    ])
 }

@@ -39,6 +39,7 @@ pub const CASES: &[Case] = &[
     facade::BODIES_EQUAL,
     harbour::SEAM,
     harbour::BASIN,
+    harbour::GPU_VS_CPU,
     energy::ENERGY,
     facade::EMPTY,
     facade::TICK,
