@@ -120,7 +120,7 @@ pub const PARAMS: &[crate::ParamLayout] = &[
 /// Constants that WGSL shares, and the group index of the composite bind group.
 pub fn constants(group: u32) -> String {
     format!(
-        "const MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst CHOP_FIXED_ROUNDS: u32 = {CHOP_FIXED_ROUNDS}u;\nconst CHOP_NEWTON_ROUNDS: u32 = {CHOP_NEWTON_ROUNDS}u;\n\
+        "override SURFACE_LAND: bool = true;\nconst MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst CHOP_FIXED_ROUNDS: u32 = {CHOP_FIXED_ROUNDS}u;\nconst CHOP_NEWTON_ROUNDS: u32 = {CHOP_NEWTON_ROUNDS}u;\n\
          const CHOP_TOLERANCE: f32 = {CHOP_TOLERANCE};\nconst CHOP_LEAST_STEP: f32 = {CHOP_LEAST_STEP};\nconst CHOP_LEAST_SLOPE: f32 = {CHOP_LEAST_SLOPE};\nconst HIDDEN_SLOPE_BIAS: f32 = {HIDDEN_SLOPE_BIAS}.0;\n\
          @group({group}) @binding(0) var<uniform> surface_table: SurfaceTable;\n\
          @group({group}) @binding(1) var surface_displacement: texture_2d_array<f32>;\n\
@@ -134,6 +134,9 @@ pub fn constants(group: u32) -> String {
 }
 
 /// WGSL text of the composite surface, its bind group at index `group`: put it in front of your own shader.
+///
+/// A pipeline with the override constant `SURFACE_LAND` set to 0 leaves the land out (not the water level): for waters
+/// without any, on adapters that run both sides of a branch, as software does. Others need not care.
 pub fn wgsl(group: u32) -> String {
     format!("{}\n{}", constants(group), TEXT)
 }

@@ -162,9 +162,12 @@ impl Layers<'_> {
                 |rest| sum(layers, rest, Synthesis::displacement),
                 |rest, cross| Gradient { d: sum(layers, rest, Synthesis::derivative), cross: [cross; 2] },
             ),
-            Some(map) => {
-                invert(point, |rest| displacement(layers, map, rest), |rest, _| self.state(rest, |_| 1.0).gradient)
-            }
+            // The slopes of the map are left out of the steps: they are near enough without.
+            Some(map) => invert(
+                point,
+                |rest| scaled_sum(layers, map, rest, Synthesis::displacement),
+                |rest, cross| Gradient { d: scaled_sum(layers, map, rest, Synthesis::derivative), cross: [cross; 2] },
+            ),
         }
     }
 }
@@ -179,11 +182,11 @@ fn sum(layers: &[Layer], rest: Vec2, texels: impl Fn(&Synthesis) -> &[[f32; 4]])
     sum
 }
 
-/// `(Dx, h, Dz, ..)` scaled by a map.
-fn displacement(layers: &[Layer], map: &Placed, rest: Vec2) -> [f32; 4] {
+/// The same, scaled by a map.
+fn scaled_sum(layers: &[Layer], map: &Placed, rest: Vec2, texels: impl Fn(&Synthesis) -> &[[f32; 4]]) -> [f32; 4] {
     let mut sum = [0.0; 4];
     for (layer, factor) in layers.iter().zip(map.values(rest)) {
-        add_scaled(&mut sum, factor, layer.taps(rest).read(layer.fields.displacement()));
+        add_scaled(&mut sum, factor, layer.taps(rest).read(texels(&layer.fields)));
     }
     sum
 }

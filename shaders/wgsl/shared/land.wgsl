@@ -13,6 +13,11 @@ struct LandCorners {
     d: vec4<f32>,
 }
 
+// A pipeline that never sees land may set SURFACE_LAND to false: then nothing of it is compiled.
+fn has_land() -> bool {
+    return SURFACE_LAND && surface_table.land.present != 0u;
+}
+
 fn land_place(point: vec2<f32>) -> LandPlace {
     let land = surface_table.land;
     let x = (point - land.corner) / land.texel;
@@ -40,7 +45,7 @@ fn land_mix(k: LandCorners, t: vec2<f32>) -> vec4<f32> {
 
 // (elevation of the bed, open water, nearness of walls, 0) at a point.
 fn land_at(point: vec2<f32>) -> vec4<f32> {
-    if surface_table.land.present == 0u {
+    if !has_land() {
         return vec4<f32>(-1000.0, 1.0, 0.0, 0.0);
     }
     let place = land_place(point);

@@ -11,7 +11,7 @@ fn hidden_slope(footprint: f32) -> f32 {
 // The same where the land's factors hold: each cascade, which has the waves up to a sixth of its tile, by its own.
 fn hidden_left(footprint: f32, factors: LandFactors) -> f32 {
     var below = hidden_slope(footprint);
-    if surface_table.land.present == 0u || surface_table.cascade_count == 0u {
+    if !has_land() || surface_table.cascade_count == 0u {
         return below;
     }
     var sum = 0.0;

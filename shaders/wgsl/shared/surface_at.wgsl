@@ -40,14 +40,21 @@ fn displacement_at(rest: vec2<f32>) -> vec4<f32> {
     return sum;
 }
 
-// The gradient of the ambient sea at a rest point, where displacement_at gave `cross` for dDx/dz.
-fn gradient_at(rest: vec2<f32>, cross: f32) -> Gradient {
+// The gradient of the ambient sea at a rest point, where displacement_at gave `cross` for dDx/dz, as if the factors were
+// the same everywhere: near enough to find a rest point with.
+fn level_gradient_at(rest: vec2<f32>, cross: f32) -> Gradient {
     let factors = land_factors(rest);
     var g = Gradient(vec4<f32>(0.0), vec2<f32>(cross));
     for (var c = 0u; c < surface_table.cascade_count; c++) {
         g.d += land_factor(factors, c) * read_cascade(surface_derivative, c, rest);
     }
-    if surface_table.land.present != 0u {
+    return g;
+}
+
+// The gradient with the slopes of the factors.
+fn gradient_at(rest: vec2<f32>, cross: f32) -> Gradient {
+    var g = level_gradient_at(rest, cross);
+    if has_land() {
         let slopes = land_slopes(rest);
         for (var c = 0u; c < surface_table.cascade_count; c++) {
             let d = read_cascade(surface_displacement, c, rest);
@@ -90,7 +97,7 @@ fn rest_of(point: vec2<f32>) -> vec2<f32> {
         }
         var step = miss;
         if round >= CHOP_FIXED_ROUNDS {
-            let g = gradient_at(rest, d.w);
+            let g = level_gradient_at(rest, d.w);
             step = vec2<f32>((1.0 + g.d.w) * miss.x - g.cross.x * miss.y, (1.0 + g.d.z) * miss.y - g.cross.y * miss.x);
             step /= compression(g, CHOP_LEAST_STEP);
             step *= min(1.0, 4.0 * residual / length(step));
