@@ -214,7 +214,7 @@ fn swing(desc: &BodyDesc, axis: Vec3) -> Result<f64, CaseError> {
     let release = |state: &mut BodyState| state.orientation = Quat::from_axis_angle(axis, 0.1);
     let (mut driven, mut own) = (World::new(&calm(), desc, release)?, Own::new(&calm(), desc, release)?);
     let (mut square, mut size) = (0.0, 0.0);
-    let angle = |state: BodyState| 2.0 * f64::from(Vec3::from(state.orientation.xyz()).dot(axis));
+    let angle = |state: BodyState| 2.0 * f64::from(state.orientation.xyz().dot(axis));
     for _ in 0..60 * 20 {
         let (a, b) = (angle(driven.step()?), angle(own.step()?));
         square += (a - b) * (a - b);

@@ -92,6 +92,9 @@ fn moorings_go_with_their_bodies_and_bad_ones_leave_nothing() {
     let error = water.add_mooring(bad).unwrap_err().to_string();
     assert!(error.contains("mooring.length is NaN"), "{error}");
     assert_eq!(water.body(id).unwrap().moorings().len(), 1);
+    let good = water.add_mooring(Mooring { body: id, line: line(-9.0, 7.0) }).unwrap();
+    assert_eq!(water.body(id).unwrap().moorings().len(), 2);
+    water.remove_mooring(good).unwrap();
     run(&mut water, &mut states, 1);
     assert!(water.mooring_tension(kept).is_ok());
     water.remove_body(id).unwrap();

@@ -27,27 +27,32 @@ fn fender(physics: &mut PhysicsWorld, face: Vec3) -> RigidBodyHandle {
 }
 
 /// A boat at a quay that fills z < 0, two fenders before it, bow and stern lines on to the quay.
-fn berth(
-    desc: OpenWaterDesc,
-) -> (World, (BodyId, RigidBodyHandle), [RigidBodyHandle; 2], [(MooringId, MooringLine); 2]) {
+struct Berth {
+    world: World,
+    boat: (BodyId, RigidBodyHandle),
+    fenders: [RigidBodyHandle; 2],
+    lines: [(MooringId, MooringLine); 2],
+}
+
+fn berth(desc: OpenWaterDesc) -> Berth {
     let mut world = World::new(desc);
     let quay = ColliderBuilder::cuboid(20.0, 6.0, 2.0).translation(Vec3::new(0.0, -4.0, -2.0));
     world.physics.insert_collider(quay, None);
     let fenders = [-2.0, 2.0].map(|x| fender(&mut world.physics, Vec3::new(x, 0.3, 0.7)));
-    let moored = world.spawn(boat(), Vec3::new(0.0, 0.2, 2.1));
+    let boat = world.spawn(boat(), Vec3::new(0.0, 0.2, 2.1));
     let lines = [-1.0, 1.0].map(|side| {
         let (point, anchor) = (Vec3::new(2.8 * side, 0.6, -1.0), Vec3::new(6.0 * side, 2.0, -0.3));
         let line = MooringLine::rope(point, anchor, 4.4, 5400.0);
-        (world.water.add_mooring(Mooring { body: moored.0, line }).unwrap(), line)
+        (world.water.add_mooring(Mooring { body: boat.0, line }).unwrap(), line)
     });
-    (world, moored, fenders, lines)
+    Berth { world, boat, fenders, lines }
 }
 
 #[test]
 fn fenders_give_by_force_over_stiffness() {
     let mut desc = Preset::Low.water();
     desc.sea.partitions.clear();
-    let (mut world, (id, _), fenders, _) = berth(desc);
+    let Berth { mut world, boat: (id, _), fenders, .. } = berth(desc);
     let wind = Controls { force: Vec3::Z * -6000.0, ..Controls::default() };
     world.water.set_controls(id, wind).unwrap();
     world.run(40.0);
@@ -62,7 +67,7 @@ fn fenders_give_by_force_over_stiffness() {
 
 #[test]
 fn a_boat_moored_between_lines_and_fenders_stays_at_its_berth() {
-    let (mut world, (id, handle), fenders, lines) = berth(sea(0.5, 4.0));
+    let Berth { mut world, boat: (id, handle), fenders, lines } = berth(sea(0.5, 4.0));
     let (mut taut, mut pushed) = (0, 0.0_f32);
     for tick in 0..60 * 50 {
         // Wind off the quay, then on to it.
