@@ -68,7 +68,7 @@ fn pulse(context: &Context) -> Result<Vec<Row>, CaseError> {
 }
 
 /// Largest difference in the interior over the largest height at its rim, decibels.
-fn reflection(small: &mut WaveGrid, large: &mut WaveGrid) -> f64 {
+pub(super) fn reflection(small: &mut WaveGrid, large: &mut WaveGrid) -> f64 {
     // Quiet tiles differ by up to the height that counts as quiet, which is more than the border sends back.
     small.set_tile_skipping(false);
     large.set_tile_skipping(false);

@@ -30,6 +30,7 @@ pub const CASES: &[Case] = &[
     grid_shore::SHOALING,
     grid_shore::STANDING,
     grid_medium::PML,
+    grid_medium::BOUND,
     grid_medium::COST,
     body_float::DRAFT,
     body_float::TICK,

@@ -24,6 +24,8 @@ pub(crate) const DECAY: f32 = 5.0;
 const SHALLOW: f32 = 0.4;
 /// Rate of the height at a wall where foam begins, m/s; it grows at the full rate at twice that.
 const SPLASH: f32 = 0.6;
+/// Waves below this break over no bed, metres.
+const FLAT: f32 = 2e-3;
 const GRAVITY: f32 = 9.81;
 
 /// Numbers of the foam's update.
@@ -89,7 +91,9 @@ pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, cells: Option<&Cells>
                 .flat_map(|z| &tiles.row(z)[tx.saturating_sub(1)..(tx + 2).min(count_x)])
                 .fold(0.0f32, |most, t| most.max(t.height));
             let mixed = cells.filter(|_| tile.class == Class::Mixed);
-            if tile.foam > 0.0 || mixed.is_some() || 8.0 * around * law.scale > law.onset {
+            // Nor high enough against any depth, nor fast enough at any wall.
+            let shore = mixed.is_some() && (around > FLAT || 2.0 * around * law.splash > 1.0);
+            if tile.foam > 0.0 || shore || 8.0 * around * law.scale > law.onset {
                 let (x, z) = (tiles.span(0, tx), tiles.span(1, tz));
                 let foam = match mixed {
                     Some(cells) => mixed_tile_foam(state, cells, x, z, law),
@@ -121,28 +125,61 @@ fn tile_height(state: &State, x: Span, z: Span) -> f32 {
 fn mixed_tile_foam(state: &mut State, cells: &Cells, x: Span, z: Span, law: FoamLaw) -> f32 {
     let State { nx, nz, z: next, old, foam, .. } = state;
     let (nx, nz) = (*nx, *nz);
-    let (old, next, a) = (&*old, &*next, &cells.a);
-    let limit = law.depth / law.deep;
-    let mut most = 0.0f32;
-    for j in z.start.max(1)..z.end.min(nz - 1) {
-        for at in x.clone().filter(|i| (1..nx - 1).contains(i)).map(|i| j * nx + i) {
-            let mut excess = 0.0;
-            if cells.is_open(at) {
-                let around = [at - 1, at + 1, at - nx, at + nx];
-                let jump = |other: &usize| if a[*other] > 0.0 { old[*other] - old[at] } else { 0.0 };
-                let lap: f32 = around.iter().map(jump).sum();
-                let steep = -lap * law.scale - law.onset;
-                let high = 2.0 * old[at] / (limit * a[at]) - 2.0;
-                let at_wall = around.iter().any(|other| a[*other] <= 0.0);
-                let rise = if at_wall { (next[at] - old[at]).abs() * law.splash - 1.0 } else { 0.0 };
-                excess = steep.max(high).max(rise).clamp(0.0, 1.0);
-            }
-            let keep = if cells.is_open(at) { law.keep } else { 0.0 };
-            foam[at] = (foam[at] * keep + excess * law.growth).min(1.0);
-            most = most.max(foam[at]);
-        }
+    let (from, to) = (x.start.max(1), x.end.min(nx - 1));
+    let mut most = [0.0f32; TILE];
+    if from >= to {
+        return 0.0;
     }
-    most
+    for j in z.start.max(1)..z.end.min(nz - 1) {
+        let own = j * nx + from..j * nx + to;
+        let around = [j - 1, j, j + 1].map(|j| j * nx + from - 1..j * nx + to + 1);
+        let row = MixedRow {
+            old: around.clone().map(|row| &old[row]),
+            a: around.map(|row| &cells.a[row]),
+            r: &cells.r[own.clone()],
+            next: &next[own.clone()],
+        };
+        mixed_foam_row(&mut foam[own], &row, law, &mut most);
+    }
+    most.into_iter().fold(0.0, f32::max)
+}
+
+/// What a row of at most 16 cells reads: rows below, here and above with one more cell at each end, and its own cells.
+struct MixedRow<'a> {
+    old: [&'a [f32]; 3],
+    a: [&'a [f32]; 3],
+    r: &'a [f32],
+    next: &'a [f32],
+}
+
+#[inline(never)]
+fn mixed_foam_row(foam: &mut [f32], row: &MixedRow, law: FoamLaw, most: &mut [f32; TILE]) {
+    let n = foam.len().min(TILE);
+    let foam = &mut foam[..n];
+    let [south, here, north] = row.old.map(|z| &z[..n + 2]);
+    let [a_south, a_here, a_north] = row.a.map(|a| &a[..n + 2]);
+    let (r, next) = (&row.r[..n], &row.next[..n]);
+    let limit = law.depth / law.deep;
+    let lesser = |a: f32, b: f32| if a < b { a } else { b };
+    let greater = |a: f32, b: f32| if a > b { a } else { b };
+    for i in 0..n {
+        let (z, a) = (here[i + 1], a_here[i + 1]);
+        let around = [(a_here[i], here[i]), (a_here[i + 2], here[i + 2])];
+        let across = [(a_south[i + 1], south[i + 1]), (a_north[i + 1], north[i + 1])];
+        let jump = |(a, other): (f32, f32)| if a > 0.0 { other - z } else { 0.0 };
+        let lap = (jump(around[0]) + jump(around[1])) + (jump(across[0]) + jump(across[1]));
+        let steep = -lap * law.scale - law.onset;
+        let high = 2.0 * z / (limit * greater(a, 1e-20)) - 2.0;
+        let least = lesser(lesser(around[0].0, around[1].0), lesser(across[0].0, across[1].0));
+        let rise = (next[i] - z).abs() * law.splash - 1.0;
+        let rise = if least > 0.0 { 0.0 } else { rise };
+        let excess = lesser(greater(greater(steep, greater(high, rise)), 0.0), 1.0);
+        let f = lesser(foam[i] * law.keep + excess * law.growth, 1.0);
+        // None on walls and held water.
+        let f = if r[i] > 0.0 { f } else { 0.0 };
+        foam[i] = f;
+        most[i] = greater(f, most[i]);
+    }
 }
 
 fn tile_foam(state: &mut State, x: Span, z: Span, law: FoamLaw) -> f32 {
