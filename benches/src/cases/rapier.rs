@@ -142,6 +142,11 @@ fn shapes() -> Result<Vec<Shape>, CaseError> {
     ])
 }
 
+/// Three digits after the point.
+fn milli(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3
+}
+
 fn draft(_context: &Context) -> Result<Vec<Row>, CaseError> {
     let mut rows = Vec::new();
     for shape in shapes()? {
@@ -153,7 +158,7 @@ fn draft(_context: &Context) -> Result<Vec<Row>, CaseError> {
         let draft = -f64::from(rigid.translation().y + shape.desc.hull.bounds().0.y);
         rows.push(
             Row::new("rapier_draft", shape.name)
-                .param("draft_m", shape.draft)
+                .param("draft_m", milli(shape.draft))
                 .param("asleep", if rigid.is_sleeping() { "yes" } else { "no" })
                 .error(100.0 * (draft / shape.draft - 1.0).abs(), "%", "Archimedes; 90 s after a drop of 0.1 m")
                 .bound(1.0),
@@ -170,8 +175,8 @@ fn vs_own(context: &Context) -> Result<Vec<Row>, CaseError> {
         let error = heave(&shape.desc, height, period, context.pick(60, 300))?;
         rows.push(
             Row::new("rapier_vs_own", format!("{}, heave", shape.name))
-                .param("hs_m", f64::from((height * 1e3).round() / 1e3))
-                .param("tp_s", f64::from((period * 1e3).round() / 1e3))
+                .param("hs_m", milli(f64::from(height)))
+                .param("tp_s", milli(f64::from(period)))
                 .error(error, "% of the heave, rms", "the same body in the same sea, moved by the water; held in place")
                 .bound(3.0),
         );

@@ -44,10 +44,11 @@ impl Body {
         }
     }
 
-    /// Carries the surface on by `time` s with its own velocity.
-    pub(super) fn carry_water(&mut self, time: f32) {
+    /// Carries the surface on by `time` s, its velocity by `whole` s: drag is implicit and meets the sub-step's end.
+    pub(super) fn carry_water(&mut self, time: f32, whole: f32) {
         for water in &mut self.waters {
             water.height += water.rise() * time;
+            water.velocity.y += water.acceleration * whole;
         }
     }
 

@@ -58,7 +58,7 @@ impl Body {
         let h = dt / count;
         let carried = scheme.ahead * h;
         if carried > 0.0 {
-            self.carry_water(carried);
+            self.carry_water(carried, h);
         }
         self.tensions.fill(0.0);
         for _ in 0..count as u32 {
