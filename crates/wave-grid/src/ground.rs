@@ -210,16 +210,18 @@ impl Cells {
         }
     }
 
-    /// Marks the tiles that hold deep wall only, which are never stepped.
+    /// Marks the tiles that hold deep wall only, which are never stepped, and those with walls beside water.
     fn find_solid_tiles(&self, tiles: &mut Tiles, x: &Range<usize>, z: &Range<usize>) {
         let (x, z) = (widened(x, REACH, self.nx), widened(z, REACH, self.nz));
         for tz in tiles.of(1, z.start)..=tiles.of(1, z.end - 1) {
             for tx in tiles.of(0, x.start)..=tiles.of(0, x.end - 1) {
-                let (columns, mut rows) = (tiles.span(0, tx), tiles.span(1, tz));
+                let (columns, rows) = (tiles.span(0, tx), tiles.span(1, tz));
                 let tile = &mut tiles.tiles[tz * tiles.count[0] + tx];
                 if tile.class != Class::Plain {
-                    let solid = rows.all(|j| self.a[j * self.nx..][columns.clone()].iter().all(|a| *a < 0.0));
+                    let mut cells = rows.flat_map(|j| &self.a[j * self.nx..][columns.clone()]);
+                    let solid = cells.clone().all(|a| *a == DEEP_WALL);
                     tile.class = if solid { Class::Solid } else { Class::Mixed };
+                    tile.walls = cells.any(|a| *a == NEAR_WALL);
                 }
             }
         }

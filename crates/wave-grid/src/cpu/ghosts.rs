@@ -13,7 +13,7 @@ pub(crate) fn fill<const N: usize>(mut heights: [&mut [f32]; N], tiles: &Tiles, 
     for tz in 0..tiles.count[1] {
         for tx in 0..tiles.count[0] {
             let tile = tiles.row(tz)[tx];
-            if tile.class == Class::Mixed && tile.mode == Mode::Active {
+            if tile.walls && tile.class == Class::Mixed && tile.mode == Mode::Active {
                 for j in tiles.span(1, tz) {
                     for i in tiles.span(0, tx) {
                         if cells.a[j * cells.nx + i] == NEAR_WALL {

@@ -44,6 +44,8 @@ pub(crate) struct Tile {
     pub(crate) foam: f32,
     pub(crate) mode: Mode,
     pub(crate) class: Class,
+    /// It has walls beside water.
+    pub(crate) walls: bool,
 }
 
 impl Tile {
@@ -178,7 +180,7 @@ impl Tiles {
         self.offset = offset;
         self.active = 0;
         for tile in &mut self.tiles {
-            *tile = Tile { class: tile.class, ..Tile::default() };
+            *tile = Tile { class: tile.class, walls: tile.walls, ..Tile::default() };
         }
     }
 }
