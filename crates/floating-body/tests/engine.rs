@@ -3,8 +3,8 @@
 //! The engine here is eight lines: four semi-implicit steps a tick under a constant force, as Rapier's solver takes.
 
 use floating_body::{
-    AiryWave, Body, BodyDesc, BodyState, Coefficients, Controls, Drag, FlatWater, ForcePoints, Hull, WATER_DENSITY,
-    WaterSurface, Wrench,
+    AiryWave, Body, BodyDesc, BodyState, Coefficients, Controls, Drag, FlatWater, ForcePoints, Hull, MooringLine,
+    SurfacePatch, SurfaceSample, WATER_DENSITY, WaterSurface, Wrench,
 };
 use glam::{Mat3, Quat, Vec2, Vec3};
 
@@ -128,4 +128,33 @@ fn an_engine_rides_waves_as_the_body_does() {
     }
     let error = f32::sqrt(square / size);
     assert!(error < 0.03, "{error}");
+}
+
+#[test]
+fn whatever_comes_in_the_wrench_is_finite() {
+    struct Wild(f32);
+    impl WaterSurface for Wild {
+        fn sample(&self, points: &[Vec2], out: &mut [SurfaceSample]) {
+            let wild = SurfaceSample { height: self.0, velocity: Vec3::splat(self.0), ..SurfaceSample::CALM };
+            out[..points.len()].fill(wild);
+        }
+        fn patch(&self, _: Vec2, _: f32) -> SurfacePatch {
+            SurfacePatch { height: self.0, gradient: Vec2::splat(self.0), ..SurfacePatch::default() }
+        }
+    }
+    let bad = [f32::NAN, f32::INFINITY, -1.0e30, 1.0e30, 0.0];
+    let rope = MooringLine { point: Vec3::X, anchor: Vec3::ZERO, length: 1.0, stiffness: 1.0e9, damping: 1.0e9 };
+    let mut body = undamped(0.05);
+    body.set_moorings(&[rope]).unwrap();
+    for (water, value) in bad.iter().flat_map(|w| bad.map(|v| (Wild(*w), v))) {
+        for dt in [DT, 0.0, -1.0, f32::NAN, 1.0e9] {
+            let mut state = BodyState::at_rest(Vec3::new(3.0, value, 0.0));
+            (state.velocity, state.angular_velocity) = (Vec3::splat(value), Vec3::splat(-value));
+            body.set_state(state);
+            body.set_state(BodyState { velocity: Vec3::splat(value), ..BodyState::at_rest(Vec3::X * 900.0) });
+            let wrench = body.step_wrench(dt, &water, &NONE);
+            assert!(wrench.force.is_finite() && wrench.torque.is_finite(), "{value}, {dt}: {wrench:?}");
+            assert!(body.state().position.is_finite() && body.tensions()[0].is_finite(), "{:?}", body.state());
+        }
+    }
 }
