@@ -97,3 +97,44 @@ fn water_is_drawn_evenly_up_to_a_wall() {
     assert!((row[80][0] - row[79][0]).abs() < 1e-3 * row[79][0].abs(), "{:?}", &row[78..82]);
     assert!(row[82..].iter().all(|d| *d == [0.0; 2]));
 }
+
+/// A beach: the speed falls with x.
+struct Beach;
+
+impl Medium for Beach {
+    fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
+        let share = (1.0 - (place.x as f32 + 10.0) / 20.0).clamp(0.05, 1.0);
+        MediumCell { speed: deep_speed * share, damping: 0.0, kind: CellKind::Open }
+    }
+
+    fn is_plain(&self, _low: DVec2, high: DVec2, _deep_speed: f32) -> bool {
+        high.x <= -10.0
+    }
+}
+
+#[test]
+fn foam_grows_in_shallow_water_and_where_waves_hit_a_wall() {
+    let run = |medium: Option<Arc<dyn Medium>>| {
+        let mut grid = WaveGrid::new(GridDesc { wave_speed: 6.0, ..desc(Scheme::NinePoint) }).unwrap();
+        grid.set_medium(medium);
+        for t in 0..480 {
+            let volume = if t < 40 { 0.8 * (t as f32 * 0.16).sin() } else { 0.0 };
+            grid.add(stone(-6.0, 0.0, 3.0, volume));
+            grid.tick();
+        }
+        let mut drawn = vec![[0.0; 2]; 160 * 96];
+        grid.draw(1.0, &mut drawn);
+        let foam = |cells: std::ops::Range<usize>| {
+            drawn.iter().enumerate().filter(|(at, _)| cells.contains(&(at % 160))).map(|(_, d)| d[1]).sum::<f32>()
+        };
+        // Deep water, and the last metre before x = 0 or the shallows.
+        [foam(0..50), foam(78..80), foam(80..110)]
+    };
+    let [open, beach] = [None, Some(Arc::new(Beach) as Arc<dyn Medium>)].map(run);
+    println!("open {open:?}, beach {beach:?}");
+    assert_eq!(open, [0.0; 3], "gentle waves do not break in deep water");
+    assert!(beach[2] > 1.0 && beach[0] == 0.0, "{beach:?}");
+    let wall = run(Some(Arc::new(Quay { x: 0.0, kind: CellKind::Wall })));
+    println!("wall {wall:?}");
+    assert!(wall[1] > 0.1 && wall[0] == 0.0 && wall[2] == 0.0, "{wall:?}");
+}
