@@ -270,7 +270,12 @@ pub const PREPARE: Pass = Pass {
 pub const STEP: Pass = Pass {
     name: "grid_step",
     constants,
-    parts: &[SHARED, include_str!("../wgsl/shared/grid_flux.wgsl"), include_str!("../wgsl/grid_step.wgsl")],
+    parts: &[
+        SHARED,
+        include_str!("../wgsl/shared/grid_flux.wgsl"),
+        include_str!("../wgsl/shared/grid_layer.wgsl"),
+        include_str!("../wgsl/grid_step.wgsl"),
+    ],
     entry_points: &["grid_step"],
     params: PARAMS,
 };

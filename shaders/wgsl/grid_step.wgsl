@@ -24,29 +24,6 @@ fn flush(x: vec4<f32>) -> vec4<f32> {
     return select(x, vec4<f32>(0.0), abs(x) < vec4<f32>(TINY));
 }
 
-// Z of the layer at x (a node's index, or half less for the edge before it) on an axis of n cells.
-fn layer_z(x: vec4<f32>, n: u32, thickness: u32, exponent: u32, peak: f32) -> vec4<f32> {
-    let w = f32(thickness);
-    let d = clamp(max(w - x, x - (f32(n) - 1.0 - w)) / w, vec4<f32>(0.0), vec4<f32>(1.0));
-    return peak * d * d * d * select(vec4<f32>(1.0), d, vec4<bool>(exponent == 4u));
-}
-
-// phi after the step on an edge with Z e and, across it, Z z.
-fn next_phi(phi: vec4<f32>, e: vec4<f32>, z: vec4<f32>, flux: vec4<f32>) -> vec4<f32> {
-    let gain = 1.0 / (1.0 + 0.5 * e);
-    return (1.0 - 0.5 * e) * gain * phi + gain * (z - e) * flux;
-}
-
-// Waves high against the depth and water that rises fast at a wall break too; see foam.rs of wave-grid.
-fn foam_excess(
-    steep: vec4<f32>, z: vec4<f32>, next: vec4<f32>, a: Row, a_across: vec4<f32>, limit: f32, splash: f32,
-) -> vec4<f32> {
-    let high = 2.0 * z / (limit * select(vec4<f32>(1.0), a.here, a.here > vec4<f32>(0.0))) - 2.0;
-    let least = min(min(a.west, a.east), a_across);
-    let rise = select(abs(next - z) * splash - 1.0, vec4<f32>(0.0), least > vec4<f32>(0.0));
-    return clamp(max(max(high, rise), steep), vec4<f32>(0.0), vec4<f32>(1.0));
-}
-
 @compute @workgroup_size(TILE_THREADS)
 fn grid_step(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -154,10 +131,7 @@ fn grid_step(
         let foam = grid_heights[foam_at];
         var bend = cross;
         if MIXED {
-            bend = select(vec4<f32>(0.0), c.west - z, faces.west > vec4<f32>(0.0))
-                + select(vec4<f32>(0.0), c.east - z, faces.east > vec4<f32>(0.0))
-                + select(vec4<f32>(0.0), s.here - z, faces.south > vec4<f32>(0.0))
-                + select(vec4<f32>(0.0), n.here - z, faces.north > vec4<f32>(0.0));
+            bend = open_bend(s, c, n, faces);
         }
         var excess = clamp(-bend * (*grid).foam_scale - (*grid).foam_onset, vec4<f32>(0.0), vec4<f32>(1.0));
         if MIXED {

@@ -50,7 +50,8 @@ pub struct GridDesc {
     pub cells: [u32; 2],
     /// Cell size h, metres: 0.001 to 1000. Default 0.5.
     pub cell_size: f32,
-    /// Wave speed c, m/s: 0.001 to 1000. Default 6. All wavelengths travel at this speed.
+    /// Wave speed c in deep water, m/s: 0.001 to 1000. Default 6. All wavelengths travel at this speed; a
+    /// [`crate::Medium`] can lower it.
     pub wave_speed: f32,
     /// Discretisation. Default nine-point.
     pub scheme: Scheme,

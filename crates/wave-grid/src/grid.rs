@@ -148,7 +148,8 @@ impl WaveGrid {
     }
 
     /// Adds a disturbance to be felt from the next tick on. Returns whether it was: a source that is not finite, has a
-    /// negative radius, or reaches into the border layer or out of the window is dropped and counted. Heights are
+    /// negative radius, reaches into the border layer or out of the window, or has less than an eighth of its weight over
+    /// open water is dropped and counted. It is written into open water only, all of it. Heights are
     /// kept within [`HEIGHT_LIMIT`]; below it the volume is written exactly to rounding.
     pub fn add(&mut self, source: Source) -> bool {
         let rim = self.profile.thickness + 1;
