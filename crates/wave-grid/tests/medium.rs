@@ -177,7 +177,7 @@ proptest! {
                 1 => CellKind::Wall,
                 _ => CellKind::Fixed,
             };
-            let pick = |k: usize| if (which + k) % 3 == 0 { nonsense[which % 8] } else { values[(which + k) % 4] };
+            let pick = |k: usize| if (which + k).is_multiple_of(3) { nonsense[which % 8] } else { values[(which + k) % 4] };
             MediumCell { speed: pick(0), damping: pick(1), kind }
         };
         let mut grid = WaveGrid::new(desc(64)).unwrap();
@@ -278,7 +278,7 @@ fn a_medium_may_change_while_waves_run() {
 #[test]
 fn quiet_tiles_and_threads_change_nothing() {
     let run = |threads: usize, skipping: bool| {
-        let pool = rayon_pool(threads);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut grid = WaveGrid::new(desc(448)).unwrap();
             grid.set_medium(Some(Arc::new(Rough)));
@@ -296,8 +296,4 @@ fn quiet_tiles_and_threads_change_nothing() {
     let lazy = run(1, true);
     let worst = lazy.heights().iter().zip(one.heights()).fold(0.0f32, |m, (a, b)| m.max((a - b).abs()));
     assert!(worst <= 2.0 * QUIET_HEIGHT, "{worst:e}");
-}
-
-fn rayon_pool(threads: usize) -> rayon::ThreadPool {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()
 }
