@@ -16,6 +16,7 @@ use crate::OpenWaterError;
 pub(crate) type Factors = [f32; open_water_shaders::surface::MAX_CASCADES];
 
 /// Distance from a wall within which foam may gather, metres.
+#[cfg(feature = "gpu")]
 const WALL_REACH: f64 = 4.0;
 /// Depths at which the factors of depth are computed, metres: geometric between.
 const DEPTHS: (f32, f32, usize) = (0.05, 300.0, 96);

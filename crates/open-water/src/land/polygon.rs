@@ -49,6 +49,7 @@ impl Polygon {
 
     /// Distance of a place from the outline, metres; 0 inside. Places farther than `reach` from the bounding box are
     /// told to be at `reach`.
+    #[cfg(any(feature = "gpu", test))]
     pub(crate) fn distance(&self, p: DVec2, reach: f64) -> f64 {
         if !self.may_touch(p - reach, p + reach) {
             return reach;

@@ -89,6 +89,7 @@ impl Terrain {
     }
 
     /// Distance from the nearest obstacle, metres, at most `reach`.
+    #[cfg(feature = "gpu")]
     pub(crate) fn wall_distance(&self, place: DVec2, reach: f64) -> f64 {
         self.parts.walls.iter().map(|(outline, _)| outline.distance(place, reach)).fold(reach, f64::min)
     }
