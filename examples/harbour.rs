@@ -60,19 +60,19 @@ fn main() -> ExitCode {
 /// Out by the gap and in again.
 fn ferry() -> Vec<(Vec2, f32)> {
     [
-        (-66.0, 30.0, 0.5),
-        (-36.0, 62.0, 0.42),
-        (-18.0, 22.0, 0.42),
-        (-30.0, -50.0, 0.42),
-        (-66.0, -58.0, 0.42),
-        (-80.0, -12.0, 0.42),
-        (-97.0, 15.0, 0.42),
-        (-140.0, 10.0, 0.55),
-        (-186.0, -14.0, 0.55),
-        (-206.0, 30.0, 0.5),
-        (-176.0, 58.0, 0.5),
-        (-132.0, 34.0, 0.5),
-        (-97.0, 28.0, 0.5),
+        (-97.0, 30.0, 0.3),
+        (-58.0, 44.0, 0.24),
+        (-28.0, 48.0, 0.22),
+        (-18.0, 14.0, 0.22),
+        (-24.0, -40.0, 0.24),
+        (-58.0, -46.0, 0.22),
+        (-74.0, -4.0, 0.22),
+        (-97.0, 15.0, 0.26),
+        (-140.0, 8.0, 0.36),
+        (-186.0, -14.0, 0.36),
+        (-212.0, 24.0, 0.3),
+        (-180.0, 62.0, 0.3),
+        (-140.0, 38.0, 0.3),
     ]
     .map(|(x, z, throttle)| (Vec2::new(x, z), throttle))
     .to_vec()
@@ -81,14 +81,14 @@ fn ferry() -> Vec<(Vec2, f32)> {
 /// Round the basin.
 fn round() -> Vec<(Vec2, f32)> {
     [
-        (20.0, -84.0, 0.5),
-        (76.0, -80.0, 0.5),
-        (96.0, -40.0, 0.45),
-        (66.0, 0.0, 0.45),
-        (62.0, 66.0, 0.45),
-        (40.0, 108.0, 0.45),
-        (8.0, 70.0, 0.5),
-        (6.0, -30.0, 0.5),
+        (24.0, -76.0, 0.24),
+        (72.0, -78.0, 0.22),
+        (92.0, -44.0, 0.24),
+        (62.0, 4.0, 0.3),
+        (60.0, 64.0, 0.24),
+        (34.0, 96.0, 0.22),
+        (8.0, 66.0, 0.24),
+        (8.0, -30.0, 0.3),
     ]
     .map(|(x, z, throttle)| (Vec2::new(x, z), throttle))
     .to_vec()
@@ -210,14 +210,19 @@ impl Scene for Harbour {
     fn new(options: &Options, setup: &Setup<DepthMap>, mut water: OpenWater) -> Result<Self, SceneError> {
         let hull = setup.hull.clone();
         let mass = 0.24 * hull.volume() * 1025.0;
-        let desc = options.preset().body(BodyDesc::boat(&hull, mass, SPEED));
+        let mut desc = options.preset().body(BodyDesc::boat(&hull, mass, SPEED));
+        // A harbour is narrow: a larger rudder than on the open sea.
+        if let Some(engine) = &mut desc.engine {
+            engine.max_angle = 0.9;
+            engine.rudder_area *= 2.5;
+        }
         let waterline = hull.waterline(desc.displaced_volume()).level;
         let bed = setup.assets.clone();
         water.set_land(Some(harbour::land(bed.clone())))?;
         let world = World::new(water.desc().tick, harbour::extent(&bed), |p| bed.elevation(p.as_dvec2()));
         let period = water.ocean().map_or(6.0, |ocean| ocean.peak_period());
         let basin = water.add_grid(harbour::basin(options.preset(), period))?;
-        let places = [Vec2::new(-150.0, 42.0), Vec2::new(6.0, -30.0)];
+        let places = [Vec2::new(-150.0, 42.0), Vec2::new(8.0, -10.0)];
         let courses = [Course::new(ferry(), places[0]), Course::new(round(), places[1])];
         let mut boats = Vec::new();
         for wake in [true, true, false] {
@@ -244,8 +249,8 @@ impl Scene for Harbour {
             strayed: 0.0,
         };
         let starts = [
-            Self::start(places[0], Vec2::new(-132.0, 34.0), 5.0),
-            Self::start(places[1], Vec2::new(20.0, -84.0), 5.0),
+            Self::start(places[0], Vec2::new(-97.0, 30.0), 5.0),
+            Self::start(places[1], Vec2::new(8.0, -60.0), 5.0),
             Self::start(scene.berth(), scene.berth() + Vec2::X, 0.0),
         ];
         for (boat, state) in scene.boats.iter().zip(starts) {
@@ -347,8 +352,8 @@ impl Scene for Harbour {
     fn look(&self) -> WaterLook {
         // Coastal water, greener and less clear than the open sea.
         WaterLook {
-            scatter: Vec3::new(0.0065, 0.0265, 0.0280),
-            absorption: Vec3::new(0.62, 0.30, 0.34),
+            scatter: Vec3::new(0.0085, 0.0340, 0.0345),
+            absorption: Vec3::new(0.58, 0.26, 0.30),
             bed: Vec3::new(0.36, 0.31, 0.22),
             ..WaterLook::default()
         }
@@ -356,7 +361,7 @@ impl Scene for Harbour {
 
     fn viewpoint(&self, index: usize) -> Option<Viewpoint> {
         let views = [
-            (Vec3::new(-196.0, 84.0, 128.0), Vec3::new(-22.0, 0.0, -8.0)),
+            (Vec3::new(182.0, 62.0, 96.0), Vec3::new(-30.0, 0.0, -14.0)),
             (Vec3::new(150.0, 4.6, -66.0), Vec3::new(112.0, 0.0, 20.0)),
             (Vec3::new(54.0, 5.2, -95.0), Vec3::new(32.0, 0.3, -112.0)),
         ];

@@ -96,7 +96,7 @@ impl Course {
         Self { marks, next }
     }
 
-    /// Throttle and rudder for a boat at `position` that points along `forward`. It aims at a point a little ahead on the
+    /// Throttle and rudder, 0.6 of it at most, for a boat at `position` that points along `forward`. It aims at a point a little ahead on the
     /// leg, so it comes back onto it; a mark counts as passed half that distance before.
     pub fn steer(&mut self, position: Vec3, forward: Vec3) -> [f32; 2] {
         const AHEAD: f32 = 16.0;
@@ -122,7 +122,7 @@ impl Course {
         let turn = ahead.angle_to(aim);
         // Slower round the corners.
         let throttle = throttle * (1.0 - 0.35 * (turn.abs() / 1.2).min(1.0));
-        [throttle, (1.3 * turn).clamp(-0.7, 0.7)]
+        [throttle, (1.1 * turn).clamp(-0.6, 0.6)]
     }
 }
 
@@ -141,8 +141,8 @@ mod tests {
         for _ in 0..2400 {
             let forward = Vec2::from_angle(heading);
             let [throttle, rudder] = course.steer(Vec3::new(at.x, 0.0, at.y), Vec3::new(forward.x, 0.0, forward.y));
-            assert!((0.0..=0.5).contains(&throttle) && rudder.abs() <= 1.0);
-            heading += 0.5 * rudder / 30.0;
+            assert!((0.0..=0.5).contains(&throttle) && rudder.abs() <= 0.6);
+            heading += 0.7 * rudder / 30.0;
             at += forward * (10.0 * throttle / 30.0);
             let out = (Vec2::new(40.0, 30.0) - at).abs() - Vec2::new(40.0, 30.0);
             far = far.max(out.max_element());

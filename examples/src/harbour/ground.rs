@@ -58,8 +58,16 @@ pub fn ground(extent: Extent, level: f32, elevation: impl Fn(Vec2) -> f32) -> Me
     let zs = lines(extent.low.y, extent.high.y, extent.step);
     let height = |p: Vec2| {
         let held = p.clamp(extent.low, extent.high);
-        let inside = elevation(held);
         let away = p.distance(held);
+        // The map's last pixels go on, less and less rough.
+        let inside = [-36.0, -12.0, 0.0, 12.0, 36.0]
+            .map(|along: f32| {
+                let off = smoothstep(0.0, 60.0, away) * along;
+                elevation((held + Vec2::splat(off)).clamp(extent.low, extent.high))
+            })
+            .iter()
+            .sum::<f32>()
+            / 5.0;
         let land = smoothstep(level + 0.5, level + 4.0, inside);
         let hills = 0.6 + 0.4 * noise(p / 700.0, 31) + 0.3 * noise(p / 260.0, 32);
         inside

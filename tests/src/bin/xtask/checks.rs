@@ -47,9 +47,9 @@ fn crates_apart(sections: &mut Sections) -> Result<(), Failure> {
 
 /// A few frames of each headless scene; each checks itself and ends with an error when something is wrong.
 fn scenes(sections: &mut Sections) -> Result<(), Failure> {
-    for backend in ["cpu", "gpu"] {
+    for (scene, backend) in [("boat", "cpu"), ("boat", "gpu"), ("harbour", "cpu"), ("harbour", "gpu")] {
         sections.cargo(&format!(
-            "run --release --example boat -- --frames 4 --size 320x180 --backend {backend} --out target/ci/boat-{backend}"
+            "run --release --example {scene} -- --frames 4 --size 320x180 --lead 4 --backend {backend} --out target/ci/{scene}-{backend}"
         ))?;
     }
     sections.cargo("run --release --example embed -- --frames 4")
