@@ -138,3 +138,22 @@ fn foam_grows_in_shallow_water_and_where_waves_hit_a_wall() {
     println!("wall {wall:?}");
     assert!(wall[1] > 0.1 && wall[0] == 0.0 && wall[2] == 0.0, "{wall:?}");
 }
+
+#[test]
+fn a_source_that_reaches_deep_into_a_wall_keeps_nothing_awake() {
+    let mut grid = WaveGrid::new(desc(Scheme::NinePoint)).unwrap();
+    grid.set_medium(Some(Arc::new(Quay { x: 0.0, kind: CellKind::Wall })));
+    grid.set_feed(wave_grid::Edges { high_z: true, ..Default::default() });
+    assert!(grid.add(stone(-0.5, 0.0, 8.0, 0.02)));
+    let mut ticks = 0;
+    while !grid.is_asleep() {
+        // Fed along the wall too, where nothing can enter.
+        let high = if ticks < 5 { 1e-4 } else { 0.0 };
+        grid.tick_fed(&mut |_, _, rows| rows.into_iter().for_each(|row| row.fill(high)));
+        ticks += 1;
+        assert!(ticks < 8000, "never sleeps");
+    }
+    grid.tick();
+    grid.tick();
+    assert!(grid.active_tiles() == 0 && grid.heights().iter().all(|z| *z == 0.0));
+}

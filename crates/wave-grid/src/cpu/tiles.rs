@@ -50,7 +50,8 @@ pub(crate) struct Tile {
 
 impl Tile {
     fn busy(&self) -> bool {
-        self.height > QUIET_HEIGHT || self.foam > QUIET_FOAM
+        // What a source or a feed noted of a wall is never measured again.
+        self.class != Class::Solid && (self.height > QUIET_HEIGHT || self.foam > QUIET_FOAM)
     }
 }
 
