@@ -50,6 +50,8 @@ struct Harbour {
     /// Land and works; boat; line; fender.
     meshes: Vec<MeshId>,
     way: f32,
+    /// Where the moored boat lay first, and how far it strayed, metres.
+    home: Option<Vec3>,
     strayed: f32,
 }
 
@@ -60,19 +62,19 @@ fn main() -> ExitCode {
 /// Out by the gap and in again.
 fn ferry() -> Vec<(Vec2, f32)> {
     [
-        (-97.0, 30.0, 0.3),
-        (-58.0, 44.0, 0.24),
-        (-28.0, 48.0, 0.22),
-        (-18.0, 14.0, 0.22),
-        (-24.0, -40.0, 0.24),
-        (-58.0, -46.0, 0.22),
-        (-74.0, -4.0, 0.22),
-        (-97.0, 15.0, 0.26),
-        (-140.0, 8.0, 0.36),
+        (-97.0, 30.0, 0.38),
+        (-66.0, 42.0, 0.34),
+        (-42.0, 50.0, 0.32),
+        (-27.0, 18.0, 0.32),
+        (-30.0, -40.0, 0.34),
+        (-58.0, -46.0, 0.32),
+        (-74.0, -4.0, 0.32),
+        (-97.0, 15.0, 0.36),
+        (-140.0, 8.0, 0.42),
         (-186.0, -14.0, 0.36),
-        (-212.0, 24.0, 0.3),
-        (-180.0, 62.0, 0.3),
-        (-140.0, 38.0, 0.3),
+        (-212.0, 24.0, 0.38),
+        (-180.0, 62.0, 0.38),
+        (-140.0, 38.0, 0.38),
     ]
     .map(|(x, z, throttle)| (Vec2::new(x, z), throttle))
     .to_vec()
@@ -81,14 +83,14 @@ fn ferry() -> Vec<(Vec2, f32)> {
 /// Round the basin.
 fn round() -> Vec<(Vec2, f32)> {
     [
-        (24.0, -76.0, 0.24),
-        (72.0, -78.0, 0.22),
-        (92.0, -44.0, 0.24),
-        (62.0, 4.0, 0.3),
-        (60.0, 64.0, 0.24),
-        (34.0, 96.0, 0.22),
-        (8.0, 66.0, 0.24),
-        (8.0, -30.0, 0.3),
+        (24.0, -76.0, 0.34),
+        (72.0, -78.0, 0.32),
+        (92.0, -44.0, 0.34),
+        (62.0, 4.0, 0.38),
+        (60.0, 64.0, 0.34),
+        (40.0, 98.0, 0.32),
+        (18.0, 66.0, 0.34),
+        (16.0, -30.0, 0.38),
     ]
     .map(|(x, z, throttle)| (Vec2::new(x, z), throttle))
     .to_vec()
@@ -222,13 +224,20 @@ impl Scene for Harbour {
         let world = World::new(water.desc().tick, harbour::extent(&bed), |p| bed.elevation(p.as_dvec2()));
         let period = water.ocean().map_or(6.0, |ocean| ocean.peak_period());
         let basin = water.add_grid(harbour::basin(options.preset(), period))?;
-        let places = [Vec2::new(-150.0, 42.0), Vec2::new(8.0, -10.0)];
+        let places = [Vec2::new(-150.0, 42.0), Vec2::new(16.0, -10.0)];
         let courses = [Course::new(ferry(), places[0]), Course::new(round(), places[1])];
         let mut boats = Vec::new();
         for wake in [true, true, false] {
             let body = water.add_body(desc.clone())?;
-            let follow = Follow::Body(body);
-            let grid = wake.then(|| water.add_grid(GridDesc { follow, ..options.preset().grid() })).transpose()?;
+            // Slower waves than the preset's: the boats go at its speed, and would push one lump of water ahead.
+            let preset = options.preset().grid();
+            let grid = GridDesc {
+                follow: Follow::Body(body),
+                cell_size: 0.8 * preset.cell_size,
+                wave_speed: 0.8 * preset.wave_speed,
+                ..preset
+            };
+            let grid = wake.then(|| water.add_grid(grid)).transpose()?;
             boats.push(Launch::new(body, grid, hull.bounds()));
         }
         let Ok(boats) = boats.try_into() else { return Err(SceneError::Usage("three boats".into())) };
@@ -246,11 +255,12 @@ impl Scene for Harbour {
             flotsam: Flotsam::default(),
             meshes: Vec::new(),
             way: 0.0,
+            home: None,
             strayed: 0.0,
         };
         let starts = [
-            Self::start(places[0], Vec2::new(-97.0, 30.0), 5.0),
-            Self::start(places[1], Vec2::new(8.0, -60.0), 5.0),
+            Self::start(places[0], Vec2::new(-97.0, 30.0), 7.0),
+            Self::start(places[1], Vec2::new(18.0, -60.0), 7.0),
             Self::start(scene.berth(), scene.berth() + Vec2::X, 0.0),
         ];
         for (boat, state) in scene.boats.iter().zip(starts) {
@@ -283,8 +293,8 @@ impl Scene for Harbour {
         }
         self.world.tick(&mut self.water, tick)?;
         if let Some((pose, _)) = self.world.motion(self.boats[2].body) {
-            let off = Vec2::new(pose.position.x, pose.position.z).distance(self.berth());
-            self.strayed = self.strayed.max(off);
+            let home = *self.home.get_or_insert(pose.position);
+            self.strayed = self.strayed.max((pose.position - home).with_y(0.0).length());
         }
         Ok(())
     }

@@ -88,7 +88,10 @@ fn shade(height: f32, normal: Vec3, foam: f32) -> Rgba<u8> {
     let deep = Vec3::new(0.01, 0.07, 0.12);
     let crest = Vec3::new(0.05, 0.28, 0.34);
     let water = deep.lerp(crest, (0.5 + 0.8 * height).clamp(0.0, 1.0)) * (0.2 + 1.1 * light) + Vec3::splat(0.1 * glint);
-    let color = water.lerp(Vec3::splat(0.85 * (0.4 + 0.8 * light)), foam.clamp(0.0, 1.0));
+    // As much white as lace of this amount has (`foam_cover`).
+    let foam = foam.clamp(0.0, 1.0);
+    let cover = foam * foam * (1.5 - 0.5 * foam);
+    let color = water.lerp(Vec3::splat(0.85 * (0.4 + 0.8 * light)), cover);
     let byte = |v: f32| (v.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0 + 0.5) as u8;
     Rgba([byte(color.x), byte(color.y), byte(color.z), 255])
 }
