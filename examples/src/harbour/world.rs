@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use open_water::rapier::rapier3d::parry::utils::Array2;
 use open_water::rapier::rapier3d::prelude::{
-    ColliderBuilder, PhysicsWorld, PrismaticJointBuilder, RigidBodyBuilder, RigidBodyHandle,
+    ColliderBuilder, MotorModel, PhysicsWorld, PrismaticJointBuilder, RigidBodyBuilder, RigidBodyHandle,
 };
 use open_water::rapier::{RapierBodies, RapierError};
 use open_water::{BodyId, BodyState, OpenWater, Pose};
@@ -112,6 +112,7 @@ impl World {
                 .local_anchor1(at)
                 .local_anchor2(Vec3::ZERO)
                 .limits([-(FENDER.0 - half.z), 0.0])
+                .motor_model(MotorModel::ForceBased)
                 .motor_position(0.0, SPRING.0, SPRING.1)
                 .contacts_enabled(false);
             self.physics.insert_impulse_joint(anchor, body, rail.build());
