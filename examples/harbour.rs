@@ -128,7 +128,7 @@ impl Harbour {
         });
         for (point, anchor) in &mut lines {
             let start = Vec3::new(harbour::BERTH.x, -self.waterline, self.berth().y);
-            let length = 1.02 * (start + *point).distance(*anchor);
+            let length = 0.995 * (start + *point).distance(*anchor);
             let line = MooringLine::rope(*point, *anchor, length, mass);
             let id = self.water.add_mooring(Mooring { body: self.boats[2].body, line })?;
             self.moorings.push((id, line));
