@@ -11,19 +11,15 @@ use open_water::{
 };
 use open_water_examples::harbour::{self, World};
 use open_water_examples::{
-    Course, Dice, Flotsam, Helm, Kind, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh,
-    run, run_up,
+    Course, Dice, Flotsam, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, run,
+    run_up,
 };
 use water_view::{DryHull, Instance, MeshData, MeshId, MeshView, WaterLook};
 
-/// Pieces of flotsam: in the basin, outside.
-const FLOTSAM: [u32; 2] = [255, 45];
 /// Full speed, m/s.
 const SPEED: f32 = 12.0;
 /// Seconds run before the first picture: waves enter the basin, flotsam settles.
 const LEAD: f32 = 10.0;
-/// Nothing floats closer to a course or a wall at first, metres.
-const CLEAR: f32 = 7.0;
 
 /// Options of the harbour.
 #[derive(Debug, Clone, clap::Args)]
@@ -59,48 +55,6 @@ fn main() -> ExitCode {
     run::<Harbour>()
 }
 
-/// Out by the gap and in again.
-fn ferry() -> Vec<(Vec2, f32)> {
-    [
-        (-97.0, 30.0, 0.38),
-        (-66.0, 42.0, 0.34),
-        (-42.0, 50.0, 0.32),
-        (-27.0, 18.0, 0.32),
-        (-30.0, -40.0, 0.34),
-        (-58.0, -46.0, 0.32),
-        (-74.0, -4.0, 0.32),
-        (-97.0, 15.0, 0.36),
-        (-140.0, 8.0, 0.42),
-        (-186.0, -14.0, 0.36),
-        (-212.0, 24.0, 0.38),
-        (-180.0, 62.0, 0.38),
-        (-140.0, 38.0, 0.38),
-    ]
-    .map(|(x, z, throttle)| (Vec2::new(x, z), throttle))
-    .to_vec()
-}
-
-/// Round the basin.
-fn round() -> Vec<(Vec2, f32)> {
-    [
-        (24.0, -76.0, 0.34),
-        (72.0, -78.0, 0.32),
-        (92.0, -44.0, 0.34),
-        (62.0, 4.0, 0.38),
-        (60.0, 64.0, 0.34),
-        (40.0, 98.0, 0.32),
-        (18.0, 66.0, 0.34),
-        (16.0, -30.0, 0.38),
-    ]
-    .map(|(x, z, throttle)| (Vec2::new(x, z), throttle))
-    .to_vec()
-}
-
-fn near(course: &[(Vec2, f32)], p: Vec2) -> bool {
-    let line: Vec<Vec2> = course.iter().chain(course.first()).map(|mark| mark.0).collect();
-    harbour::distance(&line, p) < CLEAR
-}
-
 impl Harbour {
     fn start(place: Vec2, towards: Vec2, speed: f32) -> BodyState {
         let ahead = (towards - place).normalize_or(Vec2::X);
@@ -115,21 +69,10 @@ impl Harbour {
     fn moor(&mut self, mass: f32) -> Result<(), SceneError> {
         let (low, high) = self.boats[2].bounds;
         let deck = self.waterline + 0.6 * (high.y - self.waterline);
-        let bollards = harbour::bollards();
-        let mut lines = [(0.88, 9.0), (0.1, -9.0), (0.75, -4.0), (0.25, 4.0)].map(|(along, reach)| {
-            let point = Vec3::new(low.x + along * (high.x - low.x), deck, low.z * if along > 0.8 { 0.5 } else { 0.9 });
-            let wanted = harbour::BERTH.x + 0.5 * (low.x + high.x) + reach;
-            let anchor = bollards
-                .iter()
-                .copied()
-                .min_by(|a, b| (a.x - wanted).abs().total_cmp(&(b.x - wanted).abs()))
-                .unwrap_or(Vec3::ZERO);
-            (point, anchor + Vec3::Y * 0.45)
-        });
-        for (point, anchor) in &mut lines {
+        for (point, anchor) in harbour::lines((low, high), deck) {
             let start = Vec3::new(harbour::BERTH.x, -self.waterline, self.berth().y);
-            let length = 0.995 * (start + *point).distance(*anchor);
-            let line = MooringLine::rope(*point, *anchor, length, mass);
+            let length = 0.995 * (start + point).distance(anchor);
+            let line = MooringLine::rope(point, anchor, length, mass);
             let id = self.water.add_mooring(Mooring { body: self.boats[2].body, line })?;
             self.moorings.push((id, line));
         }
@@ -143,40 +86,11 @@ impl Harbour {
 
     fn scatter(&mut self, seed: u64) -> Result<(), SceneError> {
         let mut dice = Dice(seed);
-        let (ferry, round) = (ferry(), round());
-        let walls = harbour::walls();
-        let areas =
-            [(Vec2::new(-84.0, -104.0), Vec2::new(120.0, 126.0)), (Vec2::new(-225.0, -90.0), Vec2::new(-118.0, 110.0))];
-        for ((low, high), count) in areas.into_iter().zip(FLOTSAM) {
-            for _ in 0..count {
-                // A map of another harbour may have no room.
-                let place = (0..400).find_map(|_| {
-                    let place = low + (high - low) * Vec2::new(dice.roll(), dice.roll());
-                    let open = walls.iter().all(|wall| {
-                        let line: Vec<Vec2> = wall.iter().chain(wall.first()).map(|p| p.as_vec2()).collect();
-                        harbour::distance(&line, place) > CLEAR
-                    });
-                    let jetty = harbour::distance(&harbour::JETTY, place) > CLEAR;
-                    let deep = self.bed.elevation(place.as_dvec2()) < -1.5;
-                    let berth = place.distance(self.berth()) > 12.0;
-                    (open && jetty && deep && berth && !near(&ferry, place) && !near(&round, place)).then_some(place)
-                });
-                let Some(place) = place else { continue };
-                let (piece, state) = self.flotsam.throw(&mut self.water, &mut dice, place)?;
-                self.world.spawn(&self.water, piece.body, state).map_err(harbour::refused)?;
-            }
+        for place in harbour::afloat(&mut dice, self.berth(), |p| self.bed.elevation(p.as_dvec2())) {
+            let (piece, state) = self.flotsam.throw(&mut self.water, &mut dice, place)?;
+            self.world.spawn(&self.water, piece.body, state).map_err(harbour::refused)?;
         }
-        // A stack on the jetty's head, some of it over the edge.
-        for k in 0..12 {
-            let kind = if k < 8 { Kind::Large } else { Kind::Small };
-            let half = kind.half();
-            let (row, layer) = (k % 4, k / 4);
-            let over = if k == 8 { 1.9 } else { 0.0 };
-            let start = Vec3::new(
-                harbour::JETTY[1].x + 3.0 + 2.6 * (row / 2) as f32,
-                harbour::JETTY_TOP + 0.02 + (2.02 * Kind::Large.half().y) * layer as f32 + half.y,
-                harbour::JETTY[1].y + 1.2 * (row % 2) as f32 - 0.6 + over,
-            );
+        for (kind, start) in harbour::stack() {
             let orientation = Quat::from_rotation_y(0.5 * (dice.roll() - 0.5));
             let piece = self.flotsam.add(&mut self.water, kind, Vec3::splat(0.8 + 0.4 * dice.roll()), start)?;
             let state = BodyState { orientation, ..BodyState::at_rest(start) };
@@ -225,7 +139,7 @@ impl Scene for Harbour {
         let period = water.ocean().map_or(6.0, |ocean| ocean.peak_period());
         let basin = water.add_grid(harbour::basin(options.preset(), period))?;
         let places = [Vec2::new(-150.0, 42.0), Vec2::new(16.0, -10.0)];
-        let courses = [Course::new(ferry(), places[0]), Course::new(round(), places[1])];
+        let courses = [Course::new(harbour::ferry(), places[0]), Course::new(harbour::round(), places[1])];
         let mut boats = Vec::new();
         for wake in [true, true, false] {
             let body = water.add_body(desc.clone())?;
@@ -258,10 +172,13 @@ impl Scene for Harbour {
             home: None,
             strayed: 0.0,
         };
+        // The berth is the hull's, the state the centre of mass's.
+        let center = scene.water.body(scene.boats[2].body)?.desc().center_of_mass;
+        let moored = scene.berth() + Vec2::new(center.x, center.z);
         let starts = [
             Self::start(places[0], Vec2::new(-97.0, 30.0), 7.0),
             Self::start(places[1], Vec2::new(18.0, -60.0), 7.0),
-            Self::start(scene.berth(), scene.berth() + Vec2::X, 0.0),
+            Self::start(moored, moored + Vec2::X, 0.0),
         ];
         for (boat, state) in scene.boats.iter().zip(starts) {
             scene.world.spawn(&scene.water, boat.body, state).map_err(harbour::refused)?;

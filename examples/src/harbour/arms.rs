@@ -33,8 +33,11 @@ const FACES: [[usize; 3]; 20] = [
 
 /// A block of rock about `size` metres wide.
 pub(super) fn rock(data: &mut MeshData, at: Vec3, size: f32, dice: &mut Dice, wet: f32) {
-    let turn = Mat3::from_quat(Quat::from_rotation_y(6.28 * dice.roll()) * Quat::from_rotation_x(6.28 * dice.roll()))
-        * Mat3::from_diagonal(Vec3::new(0.7 + 0.6 * dice.roll(), 0.6 + 0.3 * dice.roll(), 0.7 + 0.5 * dice.roll()));
+    let turn =
+        Mat3::from_quat(
+            Quat::from_rotation_y(std::f32::consts::TAU * dice.roll())
+                * Quat::from_rotation_x(std::f32::consts::TAU * dice.roll()),
+        ) * Mat3::from_diagonal(Vec3::new(0.7 + 0.6 * dice.roll(), 0.6 + 0.3 * dice.roll(), 0.7 + 0.5 * dice.roll()));
     let corners = CORNERS.map(|c| at + turn * (Vec3::from(c) * (0.26 * size * (0.75 + 0.5 * dice.roll()))));
     let shade = 0.72 + 0.5 * dice.roll();
     for face in FACES {
@@ -48,7 +51,7 @@ pub(super) fn rock(data: &mut MeshData, at: Vec3, size: f32, dice: &mut Dice, we
 
 /// A lumpy ball of these half sizes, shaded smooth.
 pub(super) fn blob(data: &mut MeshData, at: Vec3, half: Vec3, dice: &mut Dice, color: [u8; 4]) {
-    let turn = Quat::from_rotation_y(6.28 * dice.roll());
+    let turn = Quat::from_rotation_y(std::f32::consts::TAU * dice.roll());
     let base = data.vertices.len() as u32;
     for c in CORNERS {
         let out = turn * Vec3::from(c).normalize();

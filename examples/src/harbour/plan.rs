@@ -1,6 +1,8 @@
 //! Where everything of the harbour is: the shore, breakwaters, quay, jetty, berth. World metres, x east, z south; the sea
 //! lies to the west, its level is 0.
 
+use std::f32::consts::FRAC_1_SQRT_2;
+
 use glam::{DVec2, Vec2};
 
 /// Corner of the depth map, its texel, metres, and texels along a side.
@@ -73,10 +75,10 @@ pub fn arm_outline(axis: &[Vec2], half_width: f32) -> Vec<Vec2> {
     let mut outline: Vec<Vec2> = (0..n).map(|i| axis[i] + side(i)).collect();
     let (ahead, across) = (along(n - 1), along(n - 1).perp());
     // A half circle in eight steps; its cosines and sines by halving.
-    for (c, s) in [(0.923_88, 0.382_683), (0.707_107, 0.707_107), (0.382_683, 0.923_88), (0.0, 1.0)] {
+    for (c, s) in [(0.923_88, 0.382_683), (FRAC_1_SQRT_2, FRAC_1_SQRT_2), (0.382_683, 0.923_88), (0.0, 1.0)] {
         outline.push(axis[n - 1] + half_width * (c * across + s * ahead));
     }
-    for (c, s) in [(0.382_683, 0.923_88), (0.707_107, 0.707_107), (0.923_88, 0.382_683)] {
+    for (c, s) in [(0.382_683, 0.923_88), (FRAC_1_SQRT_2, FRAC_1_SQRT_2), (0.923_88, 0.382_683)] {
         outline.push(axis[n - 1] + half_width * (-c * across + s * ahead));
     }
     outline.extend((0..n).rev().map(|i| axis[i] - side(i)));
