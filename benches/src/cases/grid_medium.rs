@@ -39,11 +39,14 @@ pub(super) const COST: Case = Case {
 /// Half the cells of the interior that both domains share.
 const HALF: f64 = 64.0;
 
+/// Speed over that in deep water, and kind, by the place in cells from the middle.
+type MediumOf = fn(DVec2) -> (f32, CellKind);
+
 /// A medium by a function of the place in cells from the middle. Beyond the interior it goes on along the normal, so that
 /// nothing but the layer sends waves back.
 struct By {
     cell: f64,
-    medium: fn(DVec2) -> (f32, CellKind),
+    medium: MediumOf,
 }
 
 impl Medium for By {
@@ -63,7 +66,7 @@ fn wall(is: bool) -> (f32, CellKind) {
 }
 
 fn pulse(_: &Context) -> Result<Vec<Row>, CaseError> {
-    let media: [(&str, f64, fn(DVec2) -> (f32, CellKind)); 5] = [
+    let media: [(&str, f64, MediumOf); 5] = [
         ("plain water", -75.0, |_| wall(false)),
         ("a channel", -50.0, |p| wall(p.y.abs() > 24.0)),
         ("a wall that meets the border at an angle", -55.0, |p| wall(0.3 * p.x + p.y < -30.0)),
