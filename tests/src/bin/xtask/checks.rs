@@ -11,6 +11,14 @@ use crate::{
 /// The published crates that work without wgpu.
 const WITHOUT_WGPU: [&str; 5] = ["open-water-shaders", "floating-body", "ocean-spectrum", "wave-grid", "open-water"];
 
+/// Features that need no wgpu, each by itself.
+const ALONE: [(&str, &str); 4] = [
+    ("floating-body", "mesh-files"),
+    ("open-water", "mesh-files"),
+    ("open-water", "map-files"),
+    ("open-water", "rapier"),
+];
+
 /// An adapter, then every test and doc test, with and without wgpu.
 pub(crate) fn test(sections: &mut Sections, args: &TestArgs) -> Result<(), Failure> {
     sections.run("graphics adapter", |s| adapter::ensure(s, args.no_install, args.software))?;
@@ -41,6 +49,11 @@ fn crates_apart(sections: &mut Sections) -> Result<(), Failure> {
         if tree.lines().any(|line| line.starts_with("wgpu ")) {
             return Err(format!("{name} needs wgpu even without its default features"));
         }
+    }
+    for (name, feature) in ALONE {
+        sections.cargo(&format!(
+            "clippy --quiet -p {name} --no-default-features --features {feature} --all-targets -- -D warnings"
+        ))?;
     }
     Ok(())
 }
