@@ -199,12 +199,16 @@ fn a_moving_grid_sees_the_same_walls() {
 fn water_level_lifts_everything_and_floods_the_beach() {
     let mut water = OpenWater::headless(calm()).unwrap();
     water.set_land(Some(Land::new(bay()))).unwrap();
-    let hull = Hull::cuboid(Vec3::new(2.0, 1.0, 2.0)).unwrap();
-    let id = water.add_body(BodyDesc::from_hull(&hull, 2_000.0)).unwrap();
+    // One that reads a patch of water, one that reads points.
     let mut store = BodyStates::default();
-    store.insert(id, BodyState::at_rest(Vec3::new(100.0, 0.1, 100.0)));
+    let bodies = [Vec3::new(2.0, 1.0, 2.0), Vec3::new(9.0, 1.0, 3.0)].map(|size| {
+        let desc = BodyDesc::from_hull(&Hull::cuboid(size).unwrap(), 500.0 * size.element_product());
+        let id = water.add_body(desc).unwrap();
+        store.insert(id, BodyState::at_rest(Vec3::new(60.0 + 10.0 * size.x, 0.1, 100.0)));
+        id
+    });
     run(&mut water, &mut store, 10.0, |_| {});
-    let low = store.get(id).unwrap().position.y;
+    let low = bodies.map(|id| store.get(id).unwrap().position.y);
     let (beach, deep) = (Vec3::new(354.0, 0.9, 50.0), Vec3::new(20.0, -3.0, 20.0));
     assert!(!water.is_underwater(beach) && water.is_underwater(deep));
     assert!(!water.is_underwater(deep.with_y(-10.5)), "in the ground");
@@ -215,8 +219,10 @@ fn water_level_lifts_everything_and_floods_the_beach() {
     }
     run(&mut water, &mut store, 10.0, |_| {});
     assert_eq!(water.level(), 1.99);
-    let high = store.get(id).unwrap().position.y;
-    assert!((high - low - 1.99).abs() < 0.01, "{low} {high}");
+    for (id, low) in bodies.into_iter().zip(low) {
+        let high = store.get(id).unwrap().position.y;
+        assert!((high - low - 1.99).abs() < 0.01, "{low} {high}");
+    }
     assert_eq!(heights(&water, &[Vec2::new(20.0, 20.0)]), [1.99]);
     assert!(water.is_underwater(beach));
     let error = water.set_level(f32::NAN).unwrap_err().to_string();

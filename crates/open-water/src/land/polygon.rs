@@ -86,6 +86,10 @@ mod tests {
         assert!((polygon.distance(DVec2::new(5.0, 2.0), 9.0) - 2f64.sqrt()).abs() < 1e-12);
         assert_eq!(polygon.distance(DVec2::new(3.0, 0.5), 9.0), 0.0);
         assert_eq!(polygon.distance(DVec2::new(30.0, 0.5), 9.0), 9.0);
+        // In the bay of a U, with two walls to the right.
+        let u = [[0.0, 0.0], [6.0, 0.0], [6.0, 4.0], [4.0, 4.0], [4.0, 2.0], [2.0, 2.0], [2.0, 4.0], [0.0, 4.0]];
+        let bay = Polygon::new("outline", &u.map(DVec2::from_array)).unwrap();
+        assert!(!bay.contains(DVec2::new(3.0, 3.0)) && bay.contains(DVec2::new(1.0, 3.0)));
         assert!(Polygon::new("outline", &l[..2]).is_err());
         assert!(Polygon::new("outline", &[DVec2::NAN; 3]).is_err());
     }
