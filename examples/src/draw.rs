@@ -42,6 +42,7 @@ impl Painter {
             color_format: format,
             samples: options.samples(gpu.software),
             grid: options.view_grid(),
+            land: scene.water().land().is_some(),
             ..ViewDesc::default()
         };
         let Some(layout) = scene.water().surface_layout() else {

@@ -16,6 +16,9 @@ pub struct ViewDesc {
     pub reverse_z: bool,
     /// Columns and rows of the projected grid, 8 to 4096 each.
     pub grid: [u32; 2],
+    /// Whether the water may have land, now or later. A view without does not show it, and is cheaper on software
+    /// adapters, which run both sides of a branch.
+    pub land: bool,
 }
 
 impl Default for ViewDesc {
@@ -26,6 +29,7 @@ impl Default for ViewDesc {
             samples: 1,
             reverse_z: true,
             grid: [256, 384],
+            land: true,
         }
     }
 }

@@ -126,7 +126,7 @@ impl MeshView {
             }),
         ];
         Self {
-            pipeline: pipeline(device, view.desc(), &view::MESH, &[view.layout()], &buffers, Blend::Opaque),
+            pipeline: pipeline(device, view.desc(), &view::MESH, &[view.layout()], &buffers, Blend::Opaque, &[]),
             meshes: Vec::new(),
             scratch: Vec::new(),
         }

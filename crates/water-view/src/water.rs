@@ -72,7 +72,7 @@ pub(crate) enum Blend {
     Behind,
 }
 
-/// A pipeline of a view pass on the host's targets; `layout`: the bind group layouts.
+/// A pipeline of a view pass on the host's targets: `groups` are its bind group layouts, `constants` its overrides.
 pub(crate) fn pipeline(
     device: &wgpu::Device,
     desc: &ViewDesc,
@@ -80,7 +80,9 @@ pub(crate) fn pipeline(
     groups: &[&wgpu::BindGroupLayout],
     buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
     how: Blend,
+    constants: &[(&str, f64)],
 ) -> wgpu::RenderPipeline {
+    let options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     let module = shader(device, pass);
     let layout = pipeline_layout(device, pass.name, groups);
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -89,7 +91,7 @@ pub(crate) fn pipeline(
         vertex: wgpu::VertexState {
             module: &module,
             entry_point: Some(pass.entry_points[0]),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: options.clone(),
             buffers,
         },
         primitive: wgpu::PrimitiveState::default(),
@@ -98,7 +100,7 @@ pub(crate) fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some(pass.entry_points[1]),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: options,
             targets: &[Some(wgpu::ColorTargetState {
                 format: desc.color_format,
                 blend: (how == Blend::Over).then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
@@ -166,8 +168,9 @@ impl WaterView {
         );
         let list = grid_indices(desc.grid[0], desc.grid[1]);
         let indices = filled(device, "projected grid", wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&list));
-        let water = pipeline(device, desc, &view::WATER, &[&layout, surface_layout], &[], Blend::Over);
-        let sky = pipeline(device, desc, &view::SKY, &[&layout], &[], Blend::Behind);
+        let land = [("SURFACE_LAND", f64::from(u8::from(desc.land)))];
+        let water = pipeline(device, desc, &view::WATER, &[&layout, surface_layout], &[], Blend::Over, &land);
+        let sky = pipeline(device, desc, &view::SKY, &[&layout], &[], Blend::Behind, &[]);
         Ok(Self {
             desc: desc.clone(),
             output,

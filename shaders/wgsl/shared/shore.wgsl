@@ -1,7 +1,7 @@
 // Foam that the land makes, before it is broken up into lace: swash and breakers on a beach, white water along walls.
 // `wave`: height above still water, `depth`: water under the surface, metres; `near`: nearness of a wall.
 fn shore_foam(wave: f32, depth: f32, near: f32, normal: vec3<f32>) -> f32 {
-    if surface_table.land.present == 0u {
+    if !has_land() {
         return 0.0;
     }
     let rise = max(wave, 0.0);

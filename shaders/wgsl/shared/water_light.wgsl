@@ -30,7 +30,7 @@ fn water_body(normal: vec3<f32>, to_eye: vec3<f32>, height: f32, depth: f32, bub
     let deep = view.scatter * (1.0 + 5.0 * bubbles);
     var albedo = deep;
     var through = 0.0;
-    let land = surface_table.land.present != 0u;
+    let land = has_land();
     if land || view.depth > 0.0 {
         // Down along the refracted sun ray, up along the refracted line of sight.
         let path_up = inverseSqrt(1.0 - (1.0 - to_eye.y * to_eye.y) * 0.5625);

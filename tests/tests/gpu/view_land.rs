@@ -99,6 +99,24 @@ fn white(picture: &Picture, params: &ViewParams, rows: std::ops::Range<i32>) -> 
 }
 
 #[test]
+fn a_view_may_leave_the_land_out() {
+    let context = Context::new();
+    let mut params = ViewParams::new(camera(Vec3::new(0.0, ABOVE, 0.0), 0.0, -1.57).view(true));
+    params.water.absorption = Vec3::new(0.5, 0.1, 0.3);
+    let draw = |ground: Option<Ground>, land: bool| {
+        let sea = Sea { land: ground, ..Sea::flat() };
+        let desc = ViewDesc { grid: [128, 192], land, ..ViewDesc::default() };
+        render(&context, &Stage::new(&context, &sea), &desc, &params, SIZE, Draw::WaterOnly)
+    };
+    let shallow = || Some(Ground::of(|_| [-0.3, 1.0, 0.0]));
+    let middle = [SIZE[0] / 2, SIZE[1] / 2];
+    let [with, without] = [true, false].map(|land| draw(None, land).at(middle[0], middle[1]));
+    assert_eq!(with, without, "the open sea is the same");
+    let [with, without] = [true, false].map(|land| draw(shallow(), land).at(middle[0], middle[1])[3]);
+    assert!(with < 200 && without == 255, "{with} {without}");
+}
+
+#[test]
 fn water_covers_its_bed_by_its_depth() {
     let context = Context::new();
     let water = WaterLook { absorption: Vec3::new(0.5, 0.1, 0.3), ..WaterLook::default() };
