@@ -95,9 +95,8 @@ impl DepthMap {
     pub fn from_png(path: impl AsRef<std::path::Path>, scale: &DepthScale) -> Result<Self, OpenWaterError> {
         let map = path.as_ref().display().to_string();
         let unreadable = |reason: String| OpenWaterError::MapFile { map: map.clone(), reason };
-        let image = image::ImageReader::open(path.as_ref())
-            .and_then(image::ImageReader::with_guessed_format)
-            .map_err(|error| unreadable(error.to_string()))?
+        let file = std::fs::File::open(path.as_ref()).map_err(|error| unreadable(error.to_string()))?;
+        let image = image::ImageReader::with_format(std::io::BufReader::new(file), image::ImageFormat::Png)
             .decode()
             .map_err(|error| unreadable(error.to_string()))?;
         let image::DynamicImage::ImageLuma16(levels) = image else {
@@ -248,7 +247,9 @@ mod tests {
         assert!(dry.contains("pixel (0, 1)") && dry.contains("upside down"), "{dry}");
         let eight = file("eight", &DynamicImage::new_luma8(4, 4));
         assert!(refused(&eight, &scale).contains("16-bit greyscale"));
-        assert!(refused(std::path::Path::new("nowhere.png"), &scale).len() > 12);
+        assert!(refused(std::path::Path::new("nowhere.png"), &scale).contains("os error"));
+        let text = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+        assert!(refused(&text, &scale).contains("PNG signature"));
         for path in [good, eight] {
             std::fs::remove_file(path).unwrap();
         }
