@@ -5,7 +5,7 @@
 use std::fmt;
 
 use crate::GridId;
-use crate::shore::ShoreMark;
+use crate::land::ShoreMark;
 
 /// A piece of GPU work of a frame.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,8 @@
 
 use crate::desc::{Consumers, View};
 use crate::grids::{Grid, Sim};
+use crate::land::ShoreMark;
 use crate::plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
-use crate::shore::ShoreMark;
 use crate::water::OpenWater;
 
 /// What the GPU holds after the last `encode`, so that it is not made again.

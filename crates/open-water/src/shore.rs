@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 use ocean_spectrum::AmplitudeMap;
-use wave_grid::{Medium, WaveGrid};
+use wave_grid::WaveGrid;
 
 use crate::cpu::surface::WaterSample;
 use crate::land::{Baked, Carrier, Feeding, Land, Terrain, bake};
@@ -15,25 +15,6 @@ use crate::{Follow, GridDesc, GridHome, OpenWaterError};
 const LEVEL_STEP: f32 = 0.05;
 /// Largest water level in either direction, metres.
 const HIGHEST: f32 = 1000.0;
-
-/// Land and water level.
-#[derive(Default)]
-pub(crate) struct Shore {
-    /// Water level above the datum, metres.
-    pub(crate) level: f32,
-    /// The land at the level for which the maps were made.
-    pub(crate) terrain: Option<Terrain>,
-    pub(crate) baked: Baked,
-    /// How often the maps were made.
-    revision: u64,
-}
-
-/// Tells one state of the shore from another.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct ShoreMark {
-    pub(crate) level: f32,
-    revision: u64,
-}
 
 impl OpenWater {
     /// Puts land under and around the water, replaces it, or takes it away; while running, too. Waves where a wall comes
@@ -120,7 +101,7 @@ impl OpenWater {
 
     /// Makes all maps anew and hands them to whoever reads them.
     pub(crate) fn rebuild_shore(&mut self, terrain: Option<Terrain>) -> Result<(), OpenWaterError> {
-        let medium = medium(terrain.as_ref());
+        let medium = terrain.as_ref().map(Terrain::medium);
         for grid in self.grids.iter_mut() {
             grid.set_medium(medium.clone());
         }
@@ -146,7 +127,6 @@ impl OpenWater {
             gpu.set_land(terrain.as_ref().map(|terrain| baked.texels(terrain.bed())).as_ref())?;
         }
         self.shore.terrain = terrain;
-        self.shore.baked = baked;
         self.shore.revision += 1;
         Ok(())
     }
@@ -159,33 +139,6 @@ impl OpenWater {
     ) -> Result<Vec<Feeding>, OpenWaterError> {
         let (Some(terrain), Some(ocean)) = (terrain, &self.ocean) else { return Ok(Vec::new()) };
         carriers.iter().map(|c| Feeding::new(c.grid, ocean, c.cascades, terrain, baked)).collect()
-    }
-}
-
-fn medium(terrain: Option<&Terrain>) -> Option<Arc<dyn Medium>> {
-    terrain.map(|terrain| Arc::new(terrain.clone()) as Arc<dyn Medium>)
-}
-
-impl Shore {
-    pub(crate) fn mark(&self) -> ShoreMark {
-        ShoreMark { level: self.level, revision: self.revision }
-    }
-
-    /// What grids read.
-    pub(crate) fn medium(&self) -> Option<Arc<dyn Medium>> {
-        medium(self.terrain.as_ref())
-    }
-
-    /// Whether land or no-water outlines leave a place (local x, z) without water.
-    pub(crate) fn is_dry(&self, point: Vec2) -> bool {
-        let Some(terrain) = &self.terrain else { return false };
-        let place = point.as_dvec2();
-        self.level <= terrain.bed().elevation(place) || terrain.is_kept_dry(place)
-    }
-
-    /// Whether a place (local x, z) is inside a no-water outline.
-    pub(crate) fn is_kept_dry(&self, point: Vec2) -> bool {
-        self.terrain.as_ref().is_some_and(|terrain| terrain.is_kept_dry(point.as_dvec2()))
     }
 }
 

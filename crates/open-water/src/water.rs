@@ -11,8 +11,8 @@ use crate::clock::{Clock, Tick, Ticks};
 use crate::cpu::surface::{Composite, WaterSample};
 use crate::desc::{Follow, GridDesc, GridHome, OpenWaterDesc};
 use crate::grids::{Grids, Sim};
+use crate::land::Shore;
 use crate::moorings::{Mooring, Moorings};
-use crate::shore::Shore;
 use crate::store::{BodyId, BodyStore, GridId, MooringId};
 
 /// What went out of the ordinary since the start; nothing of it is an error.

@@ -9,7 +9,7 @@ use ocean_spectrum::{Ocean, OceanSample};
 use wave_grid::GridSample;
 
 use crate::grids::{Grid, Grids};
-use crate::shore::Shore;
+use crate::land::Shore;
 use crate::store::GridId;
 
 /// Points answered at a time, on the stack.

@@ -52,6 +52,11 @@ impl Terrain {
         Ok(Self { parts: Arc::new(Parts { land, walls, no_water, speeds }), level })
     }
 
+    /// As grids read it.
+    pub(crate) fn medium(&self) -> Arc<dyn Medium> {
+        Arc::new(self.clone())
+    }
+
     /// The same land under another water level.
     pub(crate) fn at_level(&self, level: f32) -> Self {
         Self { parts: self.parts.clone(), level }
