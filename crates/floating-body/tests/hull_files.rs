@@ -55,6 +55,11 @@ fn bad_files_name_the_place_and_what_was_found() {
         ("a.obj", b"v 0 0\n", ["line 1", "\"end of line\"", "three numbers"]),
         ("a.obj", b"# nothing\n", ["whole file", "0 vertices and no triangle", "at least one"]),
         ("a.gltf", b"{", ["whole file", "EOF", "valid glTF 2.0"]),
+        (
+            "a.gltf",
+            br#"{"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":7}}]}]}"#,
+            ["primitive 0", "accessor 7 of 0", "an accessor that exists"],
+        ),
         ("a.fbx", b"", ["a.fbx", "unknown extension \"fbx\"", ".stl, .obj, .gltf and .glb"]),
     ] {
         let text = message(name, content);

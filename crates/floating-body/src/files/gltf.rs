@@ -7,8 +7,9 @@ use std::path::Path;
 
 use glam::{Mat4, Vec3};
 use gltf::accessor::{DataType, Dimensions};
+use gltf::json::validation::Checked;
 use gltf::mesh::Mode;
-use gltf::{Accessor, Gltf, Node, Semantic};
+use gltf::{Accessor, Document, Gltf, Node, Semantic};
 
 use super::error;
 use crate::{BodyError, TriMesh};
@@ -26,7 +27,10 @@ struct Reader<'a> {
 
 pub(super) fn parse(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<TriMesh, BodyError> {
     let broken = |e: gltf::Error| error(name, "whole file", e.to_string(), "a valid glTF 2.0 file with its buffers");
-    let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(broken)?;
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(broken)?;
+    let json = document.into_json();
+    check_positions(name, &json)?;
+    let document = Document::from_json(json).map_err(broken)?;
     let buffers = gltf::import_buffers(&document, folder, blob).map_err(broken)?;
     let mut reader = Reader { name, buffers, mesh: TriMesh::default(), visited: 0 };
     let scene = document.default_scene().or_else(|| document.scenes().next());
@@ -37,6 +41,18 @@ pub(super) fn parse(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<T
         reader.node(&node, Mat4::IDENTITY, 0)?;
     }
     Ok(reader.mesh)
+}
+
+/// The crate's own validation follows these without looking whether they exist.
+fn check_positions(name: &str, json: &gltf::json::Root) -> Result<(), BodyError> {
+    for (i, primitive) in json.meshes.iter().flat_map(|mesh| &mesh.primitives).enumerate() {
+        let accessor = primitive.attributes.get(&Checked::Valid(Semantic::Positions)).map(gltf::json::Index::value);
+        if let Some(accessor) = accessor.filter(|index| *index >= json.accessors.len()) {
+            let found = format!("accessor {accessor} of {}", json.accessors.len());
+            return Err(error(name, format!("primitive {i}"), found, "positions of an accessor that exists"));
+        }
+    }
+    Ok(())
 }
 
 impl Reader<'_> {
