@@ -98,12 +98,12 @@ fn water_is_drawn_evenly_up_to_a_wall() {
     assert!(row[82..].iter().all(|d| *d == [0.0; 2]));
 }
 
-/// A beach: the speed falls with x.
+/// A beach: the speed falls with x, to where gentle waves are high for the depth but not steep.
 struct Beach;
 
 impl Medium for Beach {
     fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
-        let share = (1.0 - (place.x as f32 + 10.0) / 20.0).clamp(0.05, 1.0);
+        let share = (1.0 - (place.x as f32 + 10.0) / 20.0).clamp(0.3, 1.0);
         MediumCell { speed: deep_speed * share, damping: 0.0, kind: CellKind::Open }
     }
 
