@@ -12,6 +12,7 @@ mod harbour;
 mod ocean_fft;
 mod ocean_gpu;
 mod ocean_height;
+mod ocean_sea;
 mod rapier;
 
 use crate::evidence::Case;
@@ -21,7 +22,7 @@ pub const CASES: &[Case] = &[
     ocean_fft::CPU,
     ocean_gpu::GPU,
     ocean_fft::VARIANCE,
-    ocean_height::HS,
+    ocean_sea::HS,
     ocean_height::QUERIES,
     grid_phase::PHASE,
     grid_border::PML,
