@@ -50,7 +50,7 @@ const SPEED: f32 = 9.37;
 fn sea() -> OpenWaterDesc {
     OpenWaterDesc {
         sea: SeaState { depth: Some(DEPTH), ..SeaState::height_period(HS, PERIOD, 0.0) },
-        cascades: vec![CascadeDesc { size: 128, tile: 400.0 }, CascadeDesc { size: 128, tile: 75.0 }],
+        cascades: vec![CascadeDesc::new(128, 400.0), CascadeDesc::new(128, 75.0)],
         ..OpenWaterDesc::default()
     }
 }

@@ -32,7 +32,7 @@ fn hs(context: &Context) -> Result<Vec<Row>, CaseError> {
     for (ratio, size) in
         context.pick(&[(1.5, 128), (3.0, 128), (6.0, 256)][..], &[(1.5, 256), (3.0, 256), (6.0, 512), (12.0, 1024)])
     {
-        let cascade = CascadeDesc { size: *size, tile: (ratio * sea.peak_wavelength()) as f32 };
+        let cascade = CascadeDesc::new(*size, (ratio * sea.peak_wavelength()) as f32);
         let mut worst = 0.0f64;
         let mut squares = 0.0;
         for seed in 0..SEEDS {

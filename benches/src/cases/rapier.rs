@@ -195,7 +195,7 @@ fn vs_own(context: &Context) -> Result<Vec<Row>, CaseError> {
 
 /// Percent of the rms heave, after 10 s to swing in.
 fn heave(desc: &BodyDesc, height: f32, period: f32, seconds: u32) -> Result<f64, CaseError> {
-    let cascades = vec![CascadeDesc { size: 128, tile: 12.0 * period * period }];
+    let cascades = vec![CascadeDesc::new(128, 12.0 * period * period)];
     let sea = OpenWaterDesc { sea: SeaState::height_period(height, period, 0.3), cascades, ..OpenWaterDesc::default() };
     let mut driven = World::new(&sea, desc, |_| ())?;
     let mut own = Own::new(&sea, desc, |_| ())?;

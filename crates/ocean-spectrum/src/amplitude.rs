@@ -67,6 +67,7 @@ impl AmplitudeMap {
 }
 
 /// A map as queries read it: the twin of `wgsl/shared/land.wgsl` and `land_factors.wgsl`.
+#[derive(Clone)]
 pub(crate) struct Placed {
     pub(crate) map: Arc<AmplitudeMap>,
     /// Local place of texel (0, 0).

@@ -21,7 +21,6 @@ pub(crate) struct Held {
     /// Wavenumber of the rows of each block, rad/m.
     kz: Vec<Lanes>,
     cells: Vec<Cell>,
-    now: Vec<State>,
 }
 
 /// The constants of a cell.
@@ -40,6 +39,8 @@ pub(crate) struct State {
     pub(crate) h: [Lanes; 2],
     /// Its rate.
     pub(crate) v: [Lanes; 2],
+    /// The rate of that.
+    pub(crate) a: [Lanes; 2],
 }
 
 /// One block of rows, for packing.
@@ -81,30 +82,60 @@ impl Held {
             }
         }
         let kx = rows.iter().map(|&column| wavenumber(column) as f32).collect();
-        let now = vec![State::default(); cells.len()];
-        Self { size, rows, half, kx, kz, cells, now }
+        Self { size, rows, half, kx, kz, cells }
+    }
+
+    /// Room for the states of all modes.
+    pub(crate) fn states(&self) -> Vec<State> {
+        vec![State::default(); self.cells.len()]
     }
 
     /// Brings every mode to a phase of the loop.
-    pub(crate) fn propagate(&mut self, phase: u32) {
-        self.now.par_iter_mut().zip(&self.cells).with_min_len(2048).for_each(|(now, cell)| {
-            let [a, b, c, d] = &cell.amp;
-            for l in 0..LANES {
-                let [cos, sin] = turns::cos_sin(cell.n[l].wrapping_mul(phase));
-                // h0(k) e^(-i omega t) and conj(h0(-k)) e^(i omega t)
-                let (p_re, p_im) = (a[l] * cos + b[l] * sin, b[l] * cos - a[l] * sin);
-                let (m_re, m_im) = (c[l] * cos - d[l] * sin, d[l] * cos + c[l] * sin);
-                now.h[0][l] = p_re + m_re;
-                now.h[1][l] = p_im + m_im;
-                now.v[0][l] = cell.omega[l] * (p_im - m_im);
-                now.v[1][l] = cell.omega[l] * (m_re - p_re);
-            }
-        });
+    pub(crate) fn propagate(&self, now: &mut [State], phase: u32) {
+        now.par_iter_mut().zip(&self.cells).with_min_len(2048).for_each(|(now, cell)| *now = cell.at(phase));
     }
 
-    pub(crate) fn blocks(&self) -> impl Iterator<Item = Block<'_>> {
+    /// The sum of two sets of modes, each at its own phase.
+    pub(crate) fn propagate_both(&self, other: &Self, now: &mut [State], phase: [u32; 2], weight: [f32; 2]) {
+        let cells = now.par_iter_mut().zip(&self.cells).zip(&other.cells).with_min_len(2048);
+        cells.for_each(|((now, a), b)| *now = State::sum(&a.at(phase[0]), &b.at(phase[1]), weight));
+    }
+
+    pub(crate) fn blocks<'a>(&'a self, now: &'a [State]) -> impl Iterator<Item = Block<'a>> {
         let width = self.kx.len();
-        let blocks = self.kz.iter().zip(self.cells.chunks_exact(width)).zip(self.now.chunks_exact(width));
+        let blocks = self.kz.iter().zip(self.cells.chunks_exact(width)).zip(now.chunks_exact(width));
         blocks.map(|((&kz, cells), now)| Block { kz, kx: &self.kx, cells, now })
+    }
+}
+
+impl Cell {
+    #[inline(always)]
+    fn at(&self, phase: u32) -> State {
+        let [a, b, c, d] = &self.amp;
+        let mut now = State::default();
+        for l in 0..LANES {
+            let [cos, sin] = turns::cos_sin(self.n[l].wrapping_mul(phase));
+            // h0(k) e^(-i omega t) and conj(h0(-k)) e^(i omega t)
+            let (p_re, p_im) = (a[l] * cos + b[l] * sin, b[l] * cos - a[l] * sin);
+            let (m_re, m_im) = (c[l] * cos - d[l] * sin, d[l] * cos + c[l] * sin);
+            now.h[0][l] = p_re + m_re;
+            now.h[1][l] = p_im + m_im;
+            let omega = self.omega[l];
+            now.v[0][l] = omega * (p_im - m_im);
+            now.v[1][l] = omega * (m_re - p_re);
+            now.a[0][l] = -omega * omega * now.h[0][l];
+            now.a[1][l] = -omega * omega * now.h[1][l];
+        }
+        now
+    }
+}
+
+impl State {
+    #[inline(always)]
+    fn sum(a: &Self, b: &Self, weight: [f32; 2]) -> Self {
+        let mix = |a: &[Lanes; 2], b: &[Lanes; 2]| {
+            [0, 1].map(|part| std::array::from_fn(|l| weight[0] * a[part][l] + weight[1] * b[part][l]))
+        };
+        Self { h: mix(&a.h, &b.h), v: mix(&a.v, &b.v), a: mix(&a.a, &b.a) }
     }
 }

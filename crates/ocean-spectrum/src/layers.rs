@@ -6,13 +6,14 @@ use open_water_shaders::surface::{
     CHOP_FIXED_ROUNDS, CHOP_LEAST_SLOPE, CHOP_LEAST_STEP, CHOP_NEWTON_ROUNDS, CHOP_TOLERANCE,
 };
 
-use crate::CascadeModes;
 use crate::amplitude::Placed;
 use crate::kernel::Taps;
 use crate::patch::Band;
+use crate::set::ModeSet;
 use crate::synthesis::Synthesis;
 
 /// A cascade as a query reads it.
+#[derive(Clone)]
 pub(crate) struct Layer {
     /// Local origin within the tile, metres.
     pub(crate) offset: Vec2,
@@ -23,13 +24,14 @@ pub(crate) struct Layer {
 }
 
 impl Layer {
-    pub(crate) fn new(modes: &CascadeModes, fields: Synthesis) -> Self {
+    pub(crate) fn new(set: &ModeSet, c: usize) -> Self {
+        let modes = &set.modes[c];
         Self {
             offset: Vec2::ZERO,
             texels_per_metre: modes.size as f32 / modes.tile,
             size: modes.size as usize,
-            band: Band::of(modes),
-            fields,
+            band: set.bands[c],
+            fields: Synthesis::new(&set.held[c]),
         }
     }
 

@@ -35,6 +35,7 @@
 //! breaking waves, surface tension.
 
 mod amplitude;
+mod change;
 pub mod dispersion;
 mod error;
 mod feed;
@@ -46,6 +47,7 @@ mod held;
 mod kernel;
 mod layers;
 mod modes;
+mod moment;
 mod ocean;
 mod pack;
 mod parameters;
@@ -54,6 +56,7 @@ mod query;
 mod random;
 pub mod reference;
 mod sea;
+mod set;
 mod shape;
 mod shoal;
 mod spectrum;
@@ -64,6 +67,7 @@ pub use amplitude::{AmplitudeMap, CascadeFactors};
 pub use error::{Notice, OceanError};
 pub use feed::{EdgeDesc, EdgeFeed};
 pub use modes::CascadeModes;
+pub use moment::Moment;
 pub use ocean::{CascadeDesc, CascadeFields, Ocean, OceanDesc};
 pub use patch::OceanPatch;
 pub use query::OceanSample;

@@ -1,19 +1,17 @@
 //! The sea: description, modes, and the surface at one time.
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 
 use crate::amplitude::{AmplitudeMap, Placed};
+use crate::change::Segment;
 use crate::error::check;
 use crate::layers::{Layer, Layers};
-use crate::modes::{self, CascadeModes};
-use crate::shoal::Frequencies;
-use crate::spectrum::WaveSpectrum;
-use crate::synthesis::Synthesis;
-use crate::{Notice, OceanError, SeaState, dispersion};
+use crate::moment::{Moment, Parts, finite};
+use crate::set::ModeSet;
+use crate::{Notice, OceanError, SeaState};
 
 /// One cascade: a periodic square of sea that carries one band of wavelengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +20,15 @@ pub struct CascadeDesc {
     pub size: u32,
     /// Side, metres, .5 to 100,000.
     pub tile: f32,
+    /// Seconds between states that are interpolated in time, 0 to 1: 0, the default, makes every time exactly.
+    pub interval: f32,
+}
+
+impl CascadeDesc {
+    /// A cascade that is exact at every time.
+    pub fn new(size: u32, tile: f32) -> Self {
+        Self { size, tile, interval: 0.0 }
+    }
 }
 
 /// Description of a sea.
@@ -42,7 +49,7 @@ pub struct OceanDesc {
 impl Default for OceanDesc {
     /// The default sea state on three cascades, chop 1, a loop of 17 minutes.
     fn default() -> Self {
-        let cascade = |tile| CascadeDesc { size: 256, tile };
+        let cascade = |tile| CascadeDesc::new(256, tile);
         Self {
             sea: SeaState::default(),
             seed: 0,
@@ -68,6 +75,7 @@ impl OceanDesc {
             check("cascade size", c.size.into(), ok, "a power of two from 16 to 1024")?;
             check("cascade tile", c.tile.into(), (0.5..=100e3).contains(&c.tile), "0.5 to 100000 m")?;
             check("cascade tile", c.tile.into(), c.tile <= 0.8 * last, "at most 0.8 of the tile before it")?;
+            check("cascade interval", c.interval.into(), (0.0..=1.0).contains(&c.interval), "0 to 1 s")?;
             last = c.tile;
         }
         check("choppiness", self.choppiness.into(), (0.0..=2.0).contains(&self.choppiness), "0 to 2")?;
@@ -91,17 +99,20 @@ pub struct CascadeFields<'a> {
 }
 
 /// A sea whose surface is known at one time, the last that [`Ocean::set_time`] was given (at first 0).
+///
+/// A clone shares the modes and is cheap but for the arrays; it is the way to look at another time.
+#[derive(Clone)]
 pub struct Ocean {
-    pub(crate) desc: OceanDesc,
-    pub(crate) spectrum: WaveSpectrum,
-    pub(crate) modes: Vec<CascadeModes>,
+    /// The sea before the first change.
+    pub(crate) base: Arc<ModeSet>,
+    /// Changes in the order of their starts.
+    pub(crate) segments: Vec<Arc<Segment>>,
     pub(crate) layers: Vec<Layer>,
-    pub(crate) frequencies: Vec<Frequencies>,
+    pub(crate) time_set: f64,
+    pub(crate) moment: Moment,
+    pub(crate) revision: u64,
     map: Option<Placed>,
     origin: DVec2,
-    notices: Vec<Notice>,
-    phase: u32,
-    variance: f64,
 }
 
 impl Ocean {
@@ -110,90 +121,51 @@ impl Ocean {
     /// # Errors
     /// As [`OceanDesc::validate`].
     pub fn new(desc: OceanDesc) -> Result<Self, OceanError> {
-        desc.validate()?;
-        let spectrum = WaveSpectrum::new(&desc.sea)?;
-        let modes: Vec<_> = modes::bands(&desc.cascades)
-            .into_iter()
-            .enumerate()
-            .map(|(c, band)| modes::build(&spectrum, desc.cascades[c], band, c, desc.seed, desc.loop_time))
-            .collect();
-        let variance = modes.iter().map(CascadeModes::variance).sum::<f64>();
-        let mut notices = spectrum.notices().to_vec();
-        let share = 1.0 - variance / spectrum.variance();
-        if share > 0.01 {
-            notices.push(Notice::VarianceLost { share });
-        }
-        let layers = modes.iter().map(|modes| Layer::new(modes, Synthesis::new(modes, &desc))).collect();
-        let frequencies = modes.iter().map(|modes| Frequencies::of(modes, desc.loop_time)).collect();
-        let mut ocean = Self {
-            desc,
-            spectrum,
-            modes,
-            layers,
-            frequencies,
-            map: None,
-            origin: DVec2::ZERO,
-            notices,
-            phase: 0,
-            variance,
-        };
+        let base = Arc::new(ModeSet::new(desc)?);
+        let layers = (0..base.modes.len()).map(|c| Layer::new(&base, c)).collect();
+        let moment = Parts::Alone(&base).moment(0.0);
+        let segments = Vec::new();
+        let mut ocean =
+            Self { base, segments, layers, time_set: 0.0, moment, revision: 1, map: None, origin: DVec2::ZERO };
         ocean.synthesise();
         Ok(ocean)
     }
 
-    /// The description.
-    pub fn desc(&self) -> &OceanDesc {
-        &self.desc
-    }
-
-    /// The spectrum that the modes were made from.
-    pub fn spectrum(&self) -> &WaveSpectrum {
-        &self.spectrum
-    }
-
-    /// The modes of each cascade.
-    pub fn modes(&self) -> &[CascadeModes] {
-        &self.modes
-    }
-
     /// What was changed in the description or left out.
     pub fn notices(&self) -> &[Notice] {
-        &self.notices
-    }
-
-    /// A time in seconds as a fraction of the loop, in 1/2^32; a mode's phase is `n.wrapping_mul(phase)` turns of
-    /// 2^32. As exact at 10^7 s as at 0; 0 for a time that is not finite.
-    pub fn phase_at(&self, t: f64) -> u32 {
-        // The remainder is exact, however large the time.
-        let turns = t.rem_euclid(self.desc.loop_time) / self.desc.loop_time;
-        // 2^32 itself, from rounding up, wraps to 0; a NaN casts to 0.
-        libm::round(turns * 4_294_967_296.0) as u64 as u32
+        &self.parts().first().notices
     }
 
     /// Computes the surface at time `t`, seconds, on rayon's threads. Does nothing if it is there already. Allocates
     /// nothing.
     pub fn set_time(&mut self, t: f64) {
-        let phase = self.phase_at(t);
-        if phase != self.phase {
-            self.phase = phase;
-            self.synthesise();
+        self.time_set = finite(t);
+        self.refresh();
+    }
+
+    /// Brings everything to the time set.
+    pub(crate) fn refresh(&mut self) {
+        let moment = self.parts().moment(self.time_set);
+        if moment == self.moment {
+            return;
         }
-    }
-
-    /// The phase of the surface held.
-    pub fn phase(&self) -> u32 {
-        self.phase
-    }
-
-    /// Time of the surface held, seconds within the loop: the time set, rounded to 2^-32 of the loop (.24 microseconds
-    /// at the default loop).
-    pub fn time(&self) -> f64 {
-        f64::from(self.phase) / 4_294_967_296.0 * self.desc.loop_time
+        self.revision += u64::from(moment.sets != self.moment.sets);
+        self.moment = moment;
+        for c in 0..self.layers.len() {
+            self.layers[c].band = self.band(c);
+        }
+        self.synthesise();
     }
 
     fn synthesise(&mut self) {
-        let phase = self.phase;
-        self.layers.par_iter_mut().for_each(|layer| layer.fields.run(phase));
+        let moment = self.moment;
+        let (first, second) = match self.segments.iter().rfind(|segment| segment.start <= self.time_set) {
+            None => (&self.base, None),
+            Some(segment) if self.time_set < segment.end() => (&segment.from, Some(&segment.to)),
+            Some(segment) => (&segment.to, None),
+        };
+        let second = second.map(|set| &**set);
+        self.layers.par_iter_mut().enumerate().for_each(|(c, layer)| layer.fields.run(c, first, second, moment));
     }
 
     /// World position (x, z) of the local origin, metres. The sea stays where it is in the world. Ignored if not finite.
@@ -201,7 +173,7 @@ impl Ocean {
         if !origin.is_finite() {
             return;
         }
-        for (layer, modes) in self.layers.iter_mut().zip(&self.modes) {
+        for (layer, modes) in self.layers.iter_mut().zip(&self.base.modes) {
             let tile = f64::from(modes.tile);
             layer.offset = DVec2::new(origin.x.rem_euclid(tile), origin.y.rem_euclid(tile)).as_vec2();
         }
@@ -239,43 +211,11 @@ impl Ocean {
     pub fn fields(&self, c: usize) -> CascadeFields<'_> {
         let fields = &self.layers[c].fields;
         CascadeFields {
-            size: self.modes[c].size,
-            tile: self.modes[c].tile,
+            size: self.base.modes[c].size,
+            tile: self.base.modes[c].tile,
             displacement: fields.displacement(),
             derivative: fields.derivative(),
             velocity: fields.velocity(),
         }
-    }
-
-    /// Significant wave height of the modes, metres: `4 sqrt(variance)`.
-    pub fn significant_height(&self) -> f32 {
-        (4.0 * self.variance.sqrt()) as f32
-    }
-
-    /// Period of the spectrum's peak, seconds.
-    pub fn peak_period(&self) -> f32 {
-        self.spectrum.peak_period() as f32
-    }
-
-    /// Wavenumber of the spectrum's peak, rad/m.
-    pub fn peak_wavenumber(&self) -> f32 {
-        self.spectrum.peak_wavenumber() as f32
-    }
-
-    /// Wavelength of the spectrum's peak, metres.
-    pub fn peak_wavelength(&self) -> f32 {
-        (TAU / self.spectrum.peak_wavenumber()) as f32
-    }
-
-    /// Speed of the crests of the peak, m/s.
-    pub fn peak_phase_speed(&self) -> f32 {
-        let k = self.spectrum.peak_wavenumber();
-        (dispersion::frequency(k, self.spectrum.depth()) / k) as f32
-    }
-
-    /// Mean square slope of the waves shorter than twice the footprint (metres), those beyond the finest texel
-    /// included; see [`WaveSpectrum::hidden_slope`].
-    pub fn hidden_slope(&self, footprint: f32) -> f32 {
-        self.spectrum.hidden_slope(footprint.into()) as f32
     }
 }

@@ -15,11 +15,11 @@ use crate::{CascadeModes, OceanDesc};
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Pack {
     /// `Dx + i h`, `Dz + i scale dDx/dz`.
-    Displacement { chop: f32, scale: f32 },
+    Displacement { scale: f32 },
     /// `dh/dx + i dh/dz`, `dDx/dx + i dDz/dz`.
-    Derivative { chop: f32 },
+    Derivative,
     /// `dDx/dt + i dh/dt`, `dDz/dt + i scale d^2h/dt^2`.
-    Velocity { chop: f32, scale: f32 },
+    Velocity { scale: f32 },
 }
 
 impl Pack {
@@ -36,33 +36,39 @@ impl Pack {
             k2 += power * (kx * kx + kz * kz);
             omega2 += power * omega * omega;
         }
-        let chop = desc.choppiness;
         [
-            Self::Displacement { chop, scale: power_of_two((variance / k2).sqrt()) },
-            Self::Derivative { chop },
-            Self::Velocity { chop, scale: power_of_two((variance / omega2).sqrt()) },
+            Self::Displacement { scale: power_of_two((variance / k2).sqrt()) },
+            Self::Derivative,
+            Self::Velocity { scale: power_of_two((variance / omega2).sqrt()) },
         ]
     }
 
     /// Factor on the fourth field after the transform.
     pub(crate) fn unscale(self) -> f32 {
         match self {
-            Self::Displacement { scale, .. } | Self::Velocity { scale, .. } => 1.0 / scale,
-            Self::Derivative { .. } => 1.0,
+            Self::Displacement { scale } | Self::Velocity { scale } => 1.0 / scale,
+            Self::Derivative => 1.0,
         }
     }
 
     /// Fills a block of rows of both transforms, except the columns of `gap`, which hold no modes. With `e = i k/|k|`
     /// per axis: `D = chop e h`, `grad h = i k h`.
-    pub(crate) fn fill(self, block: &Block, gap: &Range<usize>, first: &mut [Complex], second: &mut [Complex]) {
+    pub(crate) fn fill(
+        self,
+        chop: f32,
+        block: &Block,
+        gap: &Range<usize>,
+        first: &mut [Complex],
+        second: &mut [Complex],
+    ) {
         let (low, high) = (0..gap.start, gap.end..first.len());
         let columns = low.chain(high);
         let cells = block.kx.iter().zip(block.cells).zip(block.now);
         for (column, ((&kx, cell), now)) in columns.zip(cells) {
             let (first, second) = (&mut first[column], &mut second[column]);
-            let ([h_re, h_im], [v_re, v_im]) = (&now.h, &now.v);
+            let ([h_re, h_im], [v_re, v_im], [a_re, a_im]) = (&now.h, &now.v, &now.a);
             match self {
-                Self::Displacement { chop, scale } => {
+                Self::Displacement { scale } => {
                     for l in 0..LANES {
                         let unit = chop * cell.inverse_k[l];
                         let p = 1.0 + unit * kx;
@@ -72,7 +78,7 @@ impl Pack {
                         (second.re[l], second.im[l]) = (-q * h_im[l], q * h_re[l]);
                     }
                 }
-                Self::Derivative { chop } => {
+                Self::Derivative => {
                     for l in 0..LANES {
                         let kz = block.kz[l];
                         // (i kx - kz) h and -(kx^2 + i kz^2) chop/k h
@@ -84,14 +90,14 @@ impl Pack {
                         second.im[l] = -p * h_im[l] - q * h_re[l];
                     }
                 }
-                Self::Velocity { chop, scale } => {
+                Self::Velocity { scale } => {
                     for l in 0..LANES {
                         let unit = chop * cell.inverse_k[l];
                         let p = 1.0 + unit * kx;
-                        let (q, r) = (unit * block.kz[l], scale * cell.omega[l] * cell.omega[l]);
+                        let q = unit * block.kz[l];
                         (first.re[l], first.im[l]) = (-p * v_im[l], p * v_re[l]);
-                        second.re[l] = r * h_im[l] - q * v_im[l];
-                        second.im[l] = q * v_re[l] - r * h_re[l];
+                        second.re[l] = -scale * a_im[l] - q * v_im[l];
+                        second.im[l] = q * v_re[l] + scale * a_re[l];
                     }
                 }
             }

@@ -22,24 +22,34 @@ pub struct OceanPatch {
 }
 
 /// Means over the energy of one cascade.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Band {
     variance: f32,
     wavenumber: f32,
 }
 
 impl Band {
-    pub(crate) fn of(modes: &CascadeModes) -> Self {
+    /// Of one cascade given twice, or the mixed terms of two.
+    pub(crate) fn of(modes: &CascadeModes, other: &CascadeModes) -> Self {
         let size = modes.size as usize;
         let (mut sum, mut weighted) = (f64::MIN_POSITIVE, 0.0);
-        for (cell, amp) in modes.amp.iter().enumerate() {
-            let power = f64::from(amp[0] * amp[0] + amp[1] * amp[1]);
+        for (cell, (amp, other)) in modes.amp.iter().zip(&other.amp).enumerate() {
+            let power = f64::from(amp[0] * other[0] + amp[1] * other[1]);
             let index = |i: usize| f64::from(modes.signed(i as u32));
             let (i, j) = (index(cell % size), index(cell / size));
             sum += power;
             weighted += power * modes.step() * (i * i + j * j).sqrt();
         }
-        Self { variance: modes.variance() as f32, wavenumber: (weighted / sum) as f32 }
+        Self { variance: (2.0 * sum) as f32, wavenumber: (weighted / sum) as f32 }
+    }
+
+    /// Of a mix: the sum of such terms with their weights.
+    pub(crate) fn sum(terms: impl Iterator<Item = (f32, Self)>) -> Self {
+        let (sum, weighted) = terms.fold((f32::MIN_POSITIVE, 0.0), |(sum, weighted), (weight, band)| {
+            let variance = weight * band.variance;
+            (sum + variance, weighted + variance * band.wavenumber)
+        });
+        Self { variance: sum, wavenumber: weighted / sum }
     }
 
     /// Share of the waves that is left in their mean over a disc: `2 J1(x)/x` at `x = k radius`, 0 from its first zero.

@@ -23,19 +23,20 @@ struct Bin {
 }
 
 impl Frequencies {
-    pub(crate) fn of(modes: &CascadeModes, loop_time: f64) -> Self {
+    /// Of one cascade given twice, or the mixed terms of two with equal frequencies.
+    pub(crate) fn of(modes: &CascadeModes, other: &CascadeModes, loop_time: f64) -> Self {
         let held = modes.n.iter().filter(|&&n| n != 0);
         let (low, high) = held.fold((u32::MAX, 1), |(low, high), &n| (low.min(n), high.max(n)));
         let scale = BINS as f64 / libm::log(f64::from(high) / f64::from(low.min(high)) + 1e-9).max(1e-9);
         let mut bins = vec![Bin::default(); BINS];
         // Consecutive modes often share their frequency; the logarithm is dear.
         let mut last = (0, 0);
-        for (amp, &n) in modes.amp.iter().zip(&modes.n).filter(|(_, n)| **n != 0) {
+        for ((a, b), &n) in modes.amp.iter().zip(&other.amp).zip(&modes.n).filter(|(_, n)| **n != 0) {
             if last.0 != n {
                 let bin = libm::log(f64::from(n) / f64::from(low)) * scale;
                 last = (n, (bin as usize).min(BINS - 1));
             }
-            let power = 2.0 * (f64::from(amp[0]) * f64::from(amp[0]) + f64::from(amp[1]) * f64::from(amp[1]));
+            let power = 2.0 * (f64::from(a[0]) * f64::from(b[0]) + f64::from(a[1]) * f64::from(b[1]));
             bins[last.1].variance += power;
             bins[last.1].omega += power * TAU * f64::from(n) / loop_time;
         }
@@ -78,17 +79,22 @@ impl Ocean {
     /// functions.
     pub fn depth_factors(&self, depth: f32) -> CascadeFactors {
         let mut factors = [1.0f32; 8];
+        let cascades = self.modes().len();
         if depth.is_nan() || depth <= 0.0 {
-            factors[..self.modes.len()].fill(0.0);
+            factors[..cascades].fill(0.0);
             return factors;
         }
         // Below a millimetre k h is not worth computing: everything breaks.
         let here = (depth < 20e3).then_some(f64::from(depth).max(1e-3));
-        let sea = self.spectrum.depth();
         let mut left = 0.0;
-        for (factor, frequencies) in factors.iter_mut().zip(&self.frequencies) {
-            let (variance, kept) =
-                frequencies.weighted(|omega| depth_share(omega, here) / depth_share(omega, sea).max(1e-12));
+        for (c, factor) in factors[..cascades].iter_mut().enumerate() {
+            let (mut variance, mut kept) = (0.0, 0.0);
+            for (weight, frequencies, sea) in self.frequencies(c) {
+                let (all, left) =
+                    frequencies.weighted(|omega| depth_share(omega, here) / depth_share(omega, sea).max(1e-12));
+                variance += weight * all;
+                kept += weight * left;
+            }
             if variance > 0.0 {
                 *factor = (kept / variance).sqrt().min(4.0) as f32;
                 left += f64::from(*factor) * f64::from(*factor) * variance;
@@ -97,7 +103,7 @@ impl Ocean {
         let height = 4.0 * left.sqrt();
         let most = BREAKING_HEIGHT * f64::from(depth);
         if height > most {
-            for factor in &mut factors[..self.modes.len()] {
+            for factor in &mut factors[..cascades] {
                 *factor *= (most / height) as f32;
             }
         }
@@ -109,7 +115,7 @@ impl Ocean {
     /// all alike for a cascade without waves, or that the sea does not have.
     pub fn directional_energy(&self, cascade: usize, sectors: usize) -> Vec<f32> {
         let mut energy = vec![0.0; sectors];
-        if let Some(modes) = self.modes.get(cascade) {
+        if let Some(modes) = self.modes().get(cascade) {
             let low = modes.band[0].max(0.5 * modes.step());
             let high = modes.band[1].min(PI * f64::from(modes.size) / f64::from(modes.tile));
             let ratio = libm::log(high / low).max(0.0) / f64::from(STEPS);
@@ -119,7 +125,7 @@ impl Ocean {
                     for sub in 0..SUB_STEPS {
                         let within = (f64::from(sub) + 0.5) / f64::from(SUB_STEPS) - 0.5;
                         let (sin, cos) = libm::sincos(TAU * (i as f64 + within) / sectors as f64);
-                        *energy += k * k * self.spectrum.wavenumber_density(k * cos, k * sin);
+                        *energy += k * k * self.wavenumber_density(k * cos, k * sin);
                     }
                 }
             }

@@ -2,24 +2,28 @@
 //!
 //! Only the rows that hold modes are transformed along x; a band-limited cascade has few.
 
+use std::sync::Arc;
+
 use glam::Mat4;
 use rayon::prelude::*;
 
+use crate::Moment;
 use crate::fft::{Complex, Fft, LANES, Lanes};
-use crate::held::Held;
+use crate::held::{Held, State};
 use crate::pack::Pack;
-use crate::{CascadeModes, OceanDesc};
+use crate::set::ModeSet;
 
 /// The arrays of one cascade and what makes them.
+#[derive(Clone)]
 pub(crate) struct Synthesis {
-    held: Held,
-    fft: Fft,
+    now: Vec<State>,
+    fft: Arc<Fft>,
     outputs: [Output; 3],
 }
 
 /// One array of four fields: two complex transforms.
+#[derive(Clone)]
 struct Output {
-    pack: Pack,
     /// Per transform, the rows after their own transform: `[lane of row]` at `block * size + x`.
     rows: [Vec<Complex>; 2],
     /// Input and scratch of each transform in work.
@@ -28,18 +32,27 @@ struct Output {
 }
 
 impl Synthesis {
-    pub(crate) fn new(modes: &CascadeModes, desc: &OceanDesc) -> Self {
-        let held = Held::new(modes, desc.loop_time);
-        let outputs = Pack::all(modes, desc).map(|pack| Output::new(pack, &held));
-        Self { fft: Fft::new(held.size), held, outputs }
+    pub(crate) fn new(held: &Held) -> Self {
+        let outputs = std::array::from_fn(|_| Output::new(held));
+        Self { fft: Arc::new(Fft::new(held.size)), now: held.states(), outputs }
     }
 
-    /// Computes all arrays at a phase of the loop. Every value is computed by one thread in one order, so the bits do
-    /// not depend on the number of threads.
-    pub(crate) fn run(&mut self, phase: u32) {
-        self.held.propagate(phase);
-        let (held, fft) = (&self.held, &self.fft);
-        self.outputs.par_iter_mut().for_each(|output| output.run(held, fft));
+    /// Computes all arrays of cascade `c` of one or two mode sets. Every value is computed by one thread in one order,
+    /// so the bits do not depend on the number of threads.
+    pub(crate) fn run(&mut self, c: usize, first: &ModeSet, second: Option<&ModeSet>, moment: Moment) {
+        let held = &first.held[c];
+        match second {
+            None => held.propagate(&mut self.now, moment.phase[0]),
+            Some(second) => {
+                held.propagate_both(&second.held[c], &mut self.now, moment.phase, moment.weight);
+            }
+        }
+        let (now, fft) = (&self.now, &*self.fft);
+        let packs = first.packs[c];
+        self.outputs.par_iter_mut().zip(packs).for_each(|(output, pack)| {
+            output.rows(held, now, fft, pack, moment.choppiness);
+            output.columns(held, fft, pack);
+        });
     }
 
     pub(crate) fn displacement(&self) -> &[[f32; 4]] {
@@ -56,30 +69,24 @@ impl Synthesis {
 }
 
 impl Output {
-    fn new(pack: Pack, held: &Held) -> Self {
+    fn new(held: &Held) -> Self {
         let size = held.size;
         let line = || vec![Complex::default(); size];
         Self {
-            pack,
             rows: [(); 2].map(|()| vec![Complex::default(); held.rows.len().div_ceil(LANES) * size]),
             work: [(); 2].map(|()| [line(), line()]),
             texels: vec![[0.0; 4]; size * size],
         }
     }
 
-    fn run(&mut self, held: &Held, fft: &Fft) {
-        self.rows(held, fft);
-        self.columns(held, fft);
-    }
-
-    fn rows(&mut self, held: &Held, fft: &Fft) {
+    fn rows(&mut self, held: &Held, now: &[State], fft: &Fft, pack: Pack, chop: f32) {
         let size = held.size;
         let gap = held.half..size - (held.half - 1);
         let [[a, a_scratch], [b, b_scratch]] = &mut self.work;
         let [first, second] = &mut self.rows;
         let out = first.chunks_exact_mut(size).zip(second.chunks_exact_mut(size));
-        for (block, (first, second)) in held.blocks().zip(out) {
-            self.pack.fill(&block, &gap, a, b);
+        for (block, (first, second)) in held.blocks(now).zip(out) {
+            pack.fill(chop, &block, &gap, a, b);
             a[gap.clone()].fill(Complex::default());
             b[gap.clone()].fill(Complex::default());
             first.copy_from_slice(fft.run(a, a_scratch));
@@ -87,10 +94,10 @@ impl Output {
         }
     }
 
-    fn columns(&mut self, held: &Held, fft: &Fft) {
+    fn columns(&mut self, held: &Held, fft: &Fft, pack: Pack) {
         let size = held.size;
         let gap = held.half..size - (held.half - 1);
-        let unscale = self.pack.unscale();
+        let unscale = pack.unscale();
         for x in (0..size).step_by(LANES) {
             for (rows, [line, _]) in self.rows.iter().zip(&mut self.work) {
                 line[gap.clone()].fill(Complex::default());

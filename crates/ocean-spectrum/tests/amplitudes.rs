@@ -131,7 +131,7 @@ fn slopes_are_those_of_the_heights_on_a_steep_map() {
     let row = |frequency, density| TableRow { frequency, density, direction: 0.5, s: 6.0 };
     let rows = vec![row(0.1, 0.0), row(0.15, 8.0), row(0.25, 0.0)];
     for choppiness in [0.0, 1.0] {
-        let cascades = vec![CascadeDesc { size: 256, tile: 240.0 }];
+        let cascades = vec![CascadeDesc::new(256, 240.0)];
         let sea = SeaState::single(Spectrum::Table(rows.clone()), 0.0, Spreading::BothWays);
         let mut ocean = Ocean::new(OceanDesc { sea, cascades, choppiness, ..Default::default() }).unwrap();
         ocean.set_time(12.0);

@@ -5,7 +5,7 @@ use ocean_spectrum::{CascadeDesc, Ocean, OceanDesc, SeaState, depth_share};
 /// A wind sea in bands of an octave or less, so that factors per band are nearly factors per wave.
 fn fine_bands(wind: f32, fetch: f32) -> Ocean {
     let tiles = [1600.0, 900.0, 480.0, 250.0, 130.0, 70.0, 30.0, 9.0];
-    let cascades = tiles.map(|tile| CascadeDesc { size: 64, tile }).to_vec();
+    let cascades = tiles.map(|tile| CascadeDesc::new(64, tile)).to_vec();
     Ocean::new(OceanDesc { sea: SeaState::wind(wind, fetch, 0.3), cascades, ..Default::default() }).unwrap()
 }
 

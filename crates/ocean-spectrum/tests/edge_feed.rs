@@ -66,7 +66,7 @@ fn halfway_it_is_the_inward_part_of_the_sea() {
 fn across_the_edge_waves_have_the_wavenumber_of_the_grid() {
     // A small sea, all of whose waves one tile and one loop of it tell apart.
     let (tile, loop_time) = (60.0, 64.0);
-    let cascades = vec![CascadeDesc { size: 32, tile: 60.0 }];
+    let cascades = vec![CascadeDesc::new(32, 60.0)];
     let sea = SeaState::height_period(1.0, 4.0, 0.6);
     let ocean = Ocean::new(OceanDesc { sea, cascades, loop_time, ..Default::default() }).unwrap();
     let (count, times, speed, apart) = (120, 256u32, 4.5, 0.4);

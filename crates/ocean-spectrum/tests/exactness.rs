@@ -3,7 +3,7 @@
 use ocean_spectrum::{CascadeDesc, Ocean, OceanDesc};
 
 fn sea(loop_time: f64) -> Ocean {
-    let cascades = vec![CascadeDesc { size: 128, tile: 485.0 }, CascadeDesc { size: 128, tile: 60.0 }];
+    let cascades = vec![CascadeDesc::new(128, 485.0), CascadeDesc::new(128, 60.0)];
     Ocean::new(OceanDesc { cascades, loop_time, seed: 3, ..Default::default() }).unwrap()
 }
 

@@ -100,7 +100,7 @@ fn the_made_sea_has_the_height_described() {
         for seed in 0..24 {
             let sea = SeaState::wind(10.0, 100e3, 0.4);
             let tile = 60.6 * tiles;
-            let cascades = vec![CascadeDesc { size: 128, tile }, CascadeDesc { size: 64, tile: tile / 6.7 }];
+            let cascades = vec![CascadeDesc::new(128, tile), CascadeDesc::new(64, tile / 6.7)];
             let mut ocean = Ocean::new(OceanDesc { sea, seed, cascades, ..Default::default() }).unwrap();
             let described = ocean.spectrum().significant_height();
             near(ocean.significant_height().into(), described, 0.003);
@@ -142,7 +142,7 @@ fn bands_share_the_variance_without_gap_or_overlap() {
 #[test]
 fn a_peak_between_two_bands_is_counted_once() {
     // Bands meet at waves of 8 m, and so does the sea.
-    let cascades = vec![CascadeDesc { size: 128, tile: 96.0 }, CascadeDesc { size: 128, tile: 48.0 }];
+    let cascades = vec![CascadeDesc::new(128, 96.0), CascadeDesc::new(128, 48.0)];
     let sea = SeaState::height_period(0.3, 2.264, 0.3);
     let ocean = Ocean::new(OceanDesc { sea, cascades, ..Default::default() }).unwrap();
     near(ocean.significant_height().into(), ocean.spectrum().significant_height(), 6e-3);
@@ -171,7 +171,7 @@ fn mean_and_nyquist_are_empty_and_mirrors_agree() {
 #[test]
 fn a_smaller_fft_holds_a_part_of_the_same_modes() {
     let make = |size| {
-        let cascades = [485.0, 72.4, 10.8].map(|tile| CascadeDesc { size, tile }).to_vec();
+        let cascades = [485.0, 72.4, 10.8].map(|tile| CascadeDesc::new(size, tile)).to_vec();
         Ocean::new(OceanDesc { cascades, seed: 9, ..Default::default() }).unwrap()
     };
     let (small, large) = (make(64), make(256));
@@ -208,7 +208,7 @@ fn waves_travel_where_they_are_told() {
 
 #[test]
 fn descriptions_out_of_bounds_are_refused() {
-    let cascade = |size, tile| OceanDesc { cascades: vec![CascadeDesc { size, tile }], ..Default::default() };
+    let cascade = |size, tile| OceanDesc { cascades: vec![CascadeDesc::new(size, tile)], ..Default::default() };
     let bad = [
         cascade(100, 50.0),
         cascade(2048, 50.0),
@@ -216,7 +216,7 @@ fn descriptions_out_of_bounds_are_refused() {
         cascade(64, f32::NAN),
         cascade(64, 0.0),
         OceanDesc { cascades: vec![], ..Default::default() },
-        OceanDesc { cascades: vec![CascadeDesc { size: 64, tile: 50.0 }; 2], ..Default::default() },
+        OceanDesc { cascades: vec![CascadeDesc::new(64, 50.0); 2], ..Default::default() },
         OceanDesc { choppiness: f32::INFINITY, ..Default::default() },
         OceanDesc { choppiness: -0.1, ..Default::default() },
         OceanDesc { loop_time: 0.0, ..Default::default() },

@@ -5,11 +5,7 @@ use ocean_spectrum::reference::{self, Fields};
 use ocean_spectrum::{CascadeDesc, CascadeModes, Ocean, OceanDesc};
 
 fn sea() -> Ocean {
-    let cascades = vec![
-        CascadeDesc { size: 128, tile: 485.0 },
-        CascadeDesc { size: 128, tile: 72.4 },
-        CascadeDesc { size: 64, tile: 10.8 },
-    ];
+    let cascades = vec![CascadeDesc::new(128, 485.0), CascadeDesc::new(128, 72.4), CascadeDesc::new(64, 10.8)];
     Ocean::new(OceanDesc { cascades, seed: 5, choppiness: 0.8, ..Default::default() }).unwrap()
 }
 

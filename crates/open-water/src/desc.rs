@@ -142,7 +142,7 @@ impl Preset {
         OpenWaterDesc {
             sea: OceanDesc::default().sea,
             seed: 1,
-            cascades: tiles.iter().map(|&tile| CascadeDesc { size, tile }).collect(),
+            cascades: tiles.iter().map(|&tile| CascadeDesc::new(size, tile)).collect(),
             choppiness: 1.0,
             tick: 1.0 / 60.0,
             max_ticks_per_frame: 8,

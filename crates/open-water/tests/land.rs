@@ -15,7 +15,7 @@ const TEXEL: f32 = 4.0;
 fn swell() -> OpenWaterDesc {
     OpenWaterDesc {
         sea: SeaState { depth: Some(10.0), ..SeaState::height_period(1.2, 6.0, 0.0) },
-        cascades: vec![CascadeDesc { size: 128, tile: 400.0 }, CascadeDesc { size: 32, tile: 75.0 }],
+        cascades: vec![CascadeDesc::new(128, 400.0), CascadeDesc::new(32, 75.0)],
         ..OpenWaterDesc::default()
     }
 }

@@ -11,7 +11,7 @@ const DT: f32 = 1.0 / 60.0;
 fn water(height: f32) -> OpenWater {
     let mut desc = OpenWaterDesc {
         sea: SeaState::height_period(height.max(0.1), 4.0, 0.0),
-        cascades: vec![CascadeDesc { size: 64, tile: 80.0 }],
+        cascades: vec![CascadeDesc::new(64, 80.0)],
         ..Preset::Low.water()
     };
     if height == 0.0 {

@@ -9,7 +9,7 @@ use crate::context::Context;
 const SENTINEL: f32 = -12_345.0;
 
 fn desc(size: u32, tiles: &[f32]) -> OceanDesc {
-    let cascades = tiles.iter().map(|&tile| CascadeDesc { size, tile }).collect();
+    let cascades = tiles.iter().map(|&tile| CascadeDesc::new(size, tile)).collect();
     OceanDesc { cascades, seed: 7, choppiness: 1.3, ..OceanDesc::default() }
 }
 

@@ -6,7 +6,7 @@ use ocean_spectrum::{CascadeDesc, Ocean, OceanDesc, SeaState};
 use crate::context::Context;
 
 fn sea(size: u32, wind: f32, choppiness: f32) -> Ocean {
-    let cascades = [300.0, 40.0].map(|tile| CascadeDesc { size, tile }).to_vec();
+    let cascades = [300.0, 40.0].map(|tile| CascadeDesc::new(size, tile)).to_vec();
     let sea = SeaState::wind(wind, 300e3, 0.0);
     Ocean::new(OceanDesc { sea, cascades, choppiness, ..OceanDesc::default() }).expect("valid")
 }

@@ -75,7 +75,7 @@ pub(crate) fn trough() -> TriMesh {
 /// One small tile is enough to float on.
 pub(crate) fn sea(height: f32, period: f32) -> OpenWaterDesc {
     let sea = SeaState::height_period(height, period, 0.0);
-    OpenWaterDesc { sea, cascades: vec![CascadeDesc { size: 64, tile: 60.0 }], ..Preset::Low.water() }
+    OpenWaterDesc { sea, cascades: vec![CascadeDesc::new(64, 60.0)], ..Preset::Low.water() }
 }
 
 /// A sea of short steep waves, the kind that throws crates about.

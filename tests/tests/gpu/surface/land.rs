@@ -28,7 +28,7 @@ struct Stage<'a> {
 }
 
 fn sea(cascades: &[f32]) -> OceanDesc {
-    let cascades = cascades.iter().map(|&tile| CascadeDesc { size: 128, tile }).collect();
+    let cascades = cascades.iter().map(|&tile| CascadeDesc::new(128, tile)).collect();
     OceanDesc { cascades, ..OceanDesc::default() }
 }
 

@@ -1,0 +1,146 @@
+//! A change of the sea while it runs.
+
+use std::sync::Arc;
+
+use open_water_shaders::turns;
+
+use crate::error::check;
+use crate::moment::Parts;
+use crate::patch::Band;
+use crate::set::ModeSet;
+use crate::shoal::Frequencies;
+use crate::{CascadeModes, Ocean, OceanDesc, OceanError};
+
+/// One change: the sea is that of `from` until `start`, then on its way, then that of `to`.
+pub(crate) struct Segment {
+    pub(crate) from: Arc<ModeSet>,
+    pub(crate) to: Arc<ModeSet>,
+    pub(crate) start: f64,
+    seconds: f64,
+    /// What the two sets have in common, where their modes move together; then amplitudes are mixed, else two seas
+    /// that do not know each other are faded into each other.
+    pub(crate) cross: Option<Cross>,
+    /// The mixed term of the variance, half way.
+    covariance: f64,
+}
+
+/// The mixed terms of squares of two sets' amplitudes.
+pub(crate) struct Cross {
+    pub(crate) bands: Vec<Band>,
+    pub(crate) frequencies: Vec<Frequencies>,
+}
+
+impl Cross {
+    /// `None` unless all modes of both have the same frequency and phase.
+    fn of(a: &ModeSet, b: &ModeSet) -> Option<Self> {
+        let pairs = || a.modes.iter().zip(&b.modes);
+        let loop_time = a.desc.loop_time;
+        if b.desc.loop_time != loop_time || !pairs().all(|(a, b)| in_step(a, b)) {
+            return None;
+        }
+        Some(Self {
+            bands: pairs().map(|(a, b)| Band::of(a, b)).collect(),
+            frequencies: pairs().map(|(a, b)| Frequencies::of(a, b, loop_time)).collect(),
+        })
+    }
+}
+
+/// Whether the modes that both hold have equal frequencies, and phases equal to rounding.
+fn in_step(a: &CascadeModes, b: &CascadeModes) -> bool {
+    let cells = a.amp.iter().zip(&a.n).zip(b.amp.iter().zip(&b.n));
+    cells.into_iter().all(|((p, n), (q, m))| {
+        let (dot, cross) = (p[0] * q[0] + p[1] * q[1], p[0] * q[1] - p[1] * q[0]);
+        (n == m && cross.abs() <= 1e-4 * dot) || dot == 0.0 && cross == 0.0
+    })
+}
+
+/// The mixed term of the variance at phases of the two loops.
+fn covariance(a: &CascadeModes, b: &CascadeModes, phase: [u32; 2]) -> f64 {
+    let mut sum = 0.0;
+    for ((p, n), (q, m)) in a.amp.iter().zip(&a.n).zip(b.amp.iter().zip(&b.n)) {
+        let [cos, sin] = turns::cos_sin(n.wrapping_mul(phase[0]).wrapping_sub(m.wrapping_mul(phase[1])));
+        sum += f64::from((p[0] * q[0] + p[1] * q[1]) * cos - (p[0] * q[1] - p[1] * q[0]) * sin);
+    }
+    2.0 * sum
+}
+
+impl Segment {
+    pub(crate) fn end(&self) -> f64 {
+        self.start + self.seconds
+    }
+
+    /// How far the change has come, 0 to 1: it begins and ends gently.
+    pub(crate) fn share(&self, t: f64) -> f64 {
+        let u = ((t - self.start) / self.seconds).clamp(0.0, 1.0);
+        u * u * (3.0 - 2.0 * u)
+    }
+
+    /// Weights of the two sets' amplitudes: (1, 0) to (0, 1). Half of each sea is less than either where their waves
+    /// are not the same (the wind turns, phases differ), so both are raised to what makes the significant height go
+    /// straight from one to the other.
+    pub(crate) fn weights(&self, share: f64) -> [f64; 2] {
+        let (a, b) = (1.0 - share, share);
+        let (first, second) = (self.from.variance, self.to.variance);
+        let variance = a * a * first + b * b * second + 2.0 * a * b * self.covariance;
+        let wanted = a * first.sqrt() + b * second.sqrt();
+        // By chance, two small seas may cancel out.
+        let raised = if variance > 0.25 * wanted * wanted { wanted / variance.sqrt() } else { 2.0 };
+        [a * raised, b * raised]
+    }
+
+    /// The sea at a time on the way.
+    fn mixed(self: &Arc<Self>, t: f64) -> ModeSet {
+        let parts = Parts::Mixed(self);
+        ModeSet::mixed(&self.from, &self.to, parts.shares(t).1, parts.moment(t).choppiness)
+    }
+}
+
+impl Ocean {
+    /// From time `start` on the sea becomes that of `desc` over `seconds` (0 to 86,400): slowly at first and at last,
+    /// at every time on the way continuous, forwards and backwards.
+    ///
+    /// Where all waves keep frequency and phase (wind, spreading, choppiness change), their amplitudes move. Else (depth,
+    /// loop time, seed change) the two seas are faded into each other, with variance between the two. What the
+    /// changing amplitudes add to velocity and acceleration is left out of [`Self::fields`]: it is smaller than they
+    /// are by about the wave's period over `seconds`.
+    ///
+    /// Asked for while the amplitudes of an earlier change move, the new one starts from the sea of that moment; while
+    /// an earlier one fades, `start` is put off to its end. Earlier changes that would start later are dropped, and
+    /// those that are over at the time set may be forgotten. This makes the modes of the new sea, and takes as long as
+    /// [`Self::new`]; to spare a frame that, change a clone on another thread and take it over.
+    ///
+    /// # Errors
+    /// [`OceanError::InvalidValue`] as [`OceanDesc::validate`], if the cascades are not those of the sea (size and
+    /// tile), and for a start that is not finite; the sea is as it was then.
+    pub fn change_to(&mut self, desc: OceanDesc, start: f64, seconds: f64) -> Result<(), OceanError> {
+        check("start", start, true, "a finite time")?;
+        check("seconds", seconds, (0.0..=86_400.0).contains(&seconds), "0 to 86400 s")?;
+        let to = Arc::new(ModeSet::new(desc)?);
+        let same = |(c, (a, b)): (usize, (&CascadeModes, &CascadeModes))| {
+            let ok = a.size == b.size && a.tile == b.tile && a.band == b.band;
+            check("cascade of a change", c as f64, ok, "size and tile as before")
+        };
+        check("cascades", to.modes.len() as f64, to.modes.len() == self.base.modes.len(), "as many as before")?;
+        self.base.modes.iter().zip(&to.modes).enumerate().try_for_each(same)?;
+
+        let mut segments = std::mem::take(&mut self.segments);
+        segments.retain(|segment| segment.start < start);
+        let (from, start) = match segments.last() {
+            None => (Arc::clone(&self.base), start),
+            Some(last) if last.end() <= start => (Arc::clone(&last.to), start),
+            Some(last) if last.cross.is_some() => (Arc::new(last.mixed(start)), start),
+            Some(last) => (Arc::clone(&last.to), last.end()),
+        };
+        let phase = [&from, &to].map(|set| set.phase_at(start + 0.5 * seconds));
+        let covariance = from.modes.iter().zip(&to.modes).map(|(a, b)| covariance(a, b, phase)).sum();
+        let cross = Cross::of(&from, &to);
+        segments.push(Arc::new(Segment { from, to, start, seconds, cross, covariance }));
+        while segments.len() > 1 && segments[1].start <= self.time_set {
+            self.base = Arc::clone(&segments[1].from);
+            segments.remove(0);
+        }
+        self.segments = segments;
+        self.refresh();
+        Ok(())
+    }
+}
