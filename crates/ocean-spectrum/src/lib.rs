@@ -32,7 +32,7 @@
 //! a depth), and [`EdgeFeed`] hands the incoming waves to an interactive grid.
 //!
 //! Not here: interactive waves, bodies, refraction (a wave's length follows from one depth everywhere), the shape of
-//! breaking waves, surface tension.
+//! breaking waves.
 
 mod amplitude;
 mod change;
@@ -51,7 +51,9 @@ mod moment;
 mod ocean;
 mod pack;
 mod parameters;
+mod partition;
 mod patch;
+mod plane;
 mod query;
 mod random;
 pub mod reference;
@@ -60,18 +62,22 @@ mod set;
 mod shape;
 mod shoal;
 mod spectrum;
+mod spreading;
 mod synthesis;
 mod table;
+mod tail;
 
 pub use amplitude::{AmplitudeMap, CascadeFactors};
 pub use error::{Notice, OceanError};
 pub use feed::{EdgeDesc, EdgeFeed};
-pub use modes::CascadeModes;
+pub use modes::{Amplitudes, CascadeModes};
 pub use moment::Moment;
 pub use ocean::{CascadeDesc, CascadeFields, Ocean, OceanDesc};
+pub use partition::{Partition, Spectrum, Spreading, TableRow, Tail};
 pub use patch::OceanPatch;
+pub use plane::DirectionalTable;
 pub use query::OceanSample;
-pub use sea::{Partition, SeaState, Spectrum, Spreading, TableRow};
+pub use sea::SeaState;
 pub use shoal::{BREAKING_HEIGHT, depth_share};
 pub use spectrum::{SLOPE_CUTOFF, WaveSpectrum};
 

@@ -15,6 +15,17 @@ use crate::{CascadeDesc, dispersion, random};
 /// there, where the cubic kernel loses at most 2 % of them (6 % at 4.7).
 const BAND_START: f64 = 6.0;
 
+/// How the amplitude of a mode follows from the variance of its cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Amplitudes {
+    /// Each wave is as high as the mean of its kind, only its phase is random: every seed has the wave height described.
+    #[default]
+    Unit,
+    /// Height and phase are random (complex normal), as in a real sea: the wave height of a seed differs from the one
+    /// described, by 6 to 16 % on tiles of 3 to 1.5 peak wavelengths; only the mean square over seeds is right.
+    Gaussian,
+}
+
 /// The modes of one cascade, in FFT order: cell `(i, j)` at `j * size + i` has the wavevector `2 pi/tile (i', j')` with
 /// `i' = i` below `size/2`, else `i - size`. Mean (0, 0) and Nyquist rows and columns (`size/2`) are zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +86,7 @@ pub(crate) fn build(
     index: usize,
     seed: u64,
     loop_time: f64,
+    amplitudes: Amplitudes,
 ) -> CascadeModes {
     let size = desc.size as usize;
     let step = TAU / f64::from(desc.tile);
@@ -89,8 +101,13 @@ pub(crate) fn build(
                 continue;
             }
             // Each of h0(k) and conj(h0(-k)) carries half of a wave's amplitude: its variance is 2 |h0|^2.
-            let modulus = (0.5 * cell_variance(spectrum, i, j, step, band)).sqrt();
-            let turns = f64::from(random::phase(seed, index, i, j)) / 4_294_967_296.0;
+            let (phase, chance) = random::mode(seed, index, i, j);
+            let mut modulus = (0.5 * cell_variance(spectrum, i, j, step, band)).sqrt();
+            if amplitudes == Amplitudes::Gaussian {
+                // The square of a complex normal number is distributed exponentially.
+                modulus *= (-libm::log((f64::from(chance) + 0.5) / 4_294_967_296.0)).sqrt();
+            }
+            let turns = f64::from(phase) / 4_294_967_296.0;
             let (sin, cos) = libm::sincos(TAU * turns);
             *h0 = [(modulus * cos) as f32, (modulus * sin) as f32];
             let k = step * f64::from(i * i + j * j).sqrt();

@@ -9,6 +9,7 @@ use crate::amplitude::{AmplitudeMap, Placed};
 use crate::change::Segment;
 use crate::error::check;
 use crate::layers::{Layer, Layers};
+use crate::modes::Amplitudes;
 use crate::moment::{Moment, Parts, finite};
 use crate::set::ModeSet;
 use crate::{Notice, OceanError, SeaState};
@@ -44,6 +45,8 @@ pub struct OceanDesc {
     pub choppiness: f32,
     /// Seconds after which everything repeats, 10 to 10,000. Frequencies are rounded to whole turns of it.
     pub loop_time: f64,
+    /// Whether waves of one kind are equally high or random.
+    pub amplitudes: Amplitudes,
 }
 
 impl Default for OceanDesc {
@@ -56,6 +59,7 @@ impl Default for OceanDesc {
             cascades: vec![cascade(485.0), cascade(72.4), cascade(10.8)],
             choppiness: 1.0,
             loop_time: 1024.0,
+            amplitudes: Amplitudes::Unit,
         }
     }
 }

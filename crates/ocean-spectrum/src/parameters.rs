@@ -1,7 +1,7 @@
 //! The `key = value` lines of one partition.
 
 use crate::file::{At, shortened, towards};
-use crate::sea::{Partition, Spectrum, Spreading, WIND_SEA_S};
+use crate::partition::{Partition, Spectrum, Spreading, WIND_SEA_S};
 use crate::{OceanError, SeaState};
 
 /// What the lines of a partition have said so far.
@@ -89,7 +89,7 @@ impl Keys {
             (None, Kind::Phillips) => Spreading::BothWays,
             (None, _) => Spreading::Cos2s { s: WIND_SEA_S },
         };
-        Ok(Partition { spectrum, direction: towards(self.direction.unwrap_or(270.0)), spreading })
+        Ok(Partition::new(spectrum, towards(self.direction.unwrap_or(270.0)), spreading))
     }
 
     fn mismatch(&self, at: At, allowed: &str) -> OceanError {

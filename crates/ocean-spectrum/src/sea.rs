@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::error::check;
+use crate::partition::{Partition, Spectrum, Spreading, WIND_SEA_S};
 use crate::{OceanError, file};
 
 /// A sea state: the sum of its partitions over water of one depth.
@@ -11,89 +12,9 @@ pub struct SeaState {
     /// Wind sea and swells, summed.
     pub partitions: Vec<Partition>,
     /// Water depth for the dispersion, metres, .5 to 20,000; `None` is deep water. The density over frequency is taken
-    /// as given, so the wavelengths get shorter but the heights do not change.
+    /// as given, so the wavelengths get shorter but the heights do not change, unless a partition is `depth_limited`.
     pub depth: Option<f32>,
 }
-
-/// One system of waves.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Partition {
-    /// Variance over frequency.
-    pub spectrum: Spectrum,
-    /// Direction the waves travel towards: (cos, sin) in (x, z), radians. Unused by [`Spectrum::Table`].
-    pub direction: f32,
-    /// Variance over direction. Unused by [`Spectrum::Table`].
-    pub spreading: Spreading,
-}
-
-/// Distribution of variance over frequency.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Spectrum {
-    /// Phillips as Tessendorf uses it, `exp(-1/(kL)^2)/k^4` with `L = U^2/g`. His free constant has no measurable
-    /// meaning and depends on the tile; here it follows from the wave height: `A = Hs^2/(8 pi L^2)` as a density over
-    /// the wavenumber plane (with [`Spreading::BothWays`], his directional factor).
-    Phillips {
-        /// Wind speed, m/s, .5 to 80.
-        wind_speed: f32,
-        /// Significant wave height, metres, above 0 to 40.
-        significant_height: f32,
-    },
-    /// Pierson-Moskowitz (1964): the fully grown sea.
-    PiersonMoskowitz {
-        /// Wind speed at 19.5 m, m/s, .5 to 80.
-        wind_speed: f32,
-    },
-    /// JONSWAP by wind and fetch (Hasselmann et al. 1973), gamma 3.3.
-    JonswapFetch {
-        /// Wind speed at 10 m, m/s, .5 to 80.
-        wind_speed: f32,
-        /// Distance over which the wind has blown, metres, from 100; used up to about 17,000 U^2/g
-        /// (see [`Notice::FetchClamped`](crate::Notice)).
-        fetch: f32,
-    },
-    /// JONSWAP shape by height and period.
-    Jonswap {
-        /// Significant wave height, metres, above 0 to 40.
-        significant_height: f32,
-        /// Peak period, seconds, .5 to 40.
-        peak_period: f32,
-        /// Peak enhancement, 1 to 20; 1 is the shape of Pierson-Moskowitz.
-        gamma: f32,
-    },
-    /// A measured spectrum, frequencies ascending, at least 3 rows. Linear between rows, zero below the first,
-    /// continued above the last by a frequency^-5 tail.
-    Table(Vec<TableRow>),
-}
-
-/// A row of a measured spectrum.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TableRow {
-    /// Frequency, Hz, above 0 to 5.
-    pub frequency: f32,
-    /// Variance density, m^2/Hz, from 0.
-    pub density: f32,
-    /// Direction the waves travel towards: (cos, sin) in (x, z), radians.
-    pub direction: f32,
-    /// Exponent of the cos^2s spreading at this frequency, 0 to 1,000.
-    pub s: f32,
-}
-
-/// Distribution of variance over direction; each integrates to 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum Spreading {
-    /// `cos^2s(theta/2)` (Longuet-Higgins et al. 1963).
-    Cos2s {
-        /// Exponent, 0 (all directions alike) to 1,000 (almost one direction); wind seas 2 to 10, swell 20 to 100.
-        s: f32,
-    },
-    /// `cos^2(theta)/pi`: as much against the direction as along it (Tessendorf 2001).
-    BothWays,
-}
-
-/// Spreading of a wind sea when nothing else is said: a circular deviation of 31 degrees.
-pub(crate) const WIND_SEA_S: f32 = 6.0;
 
 impl Default for SeaState {
     /// Wind of 10 m/s over 100 km: Hs 2.1 m, Tp 6.2 s.
@@ -110,7 +31,20 @@ impl SeaState {
 
     /// JONSWAP (gamma 3.3) by significant height in metres and peak period in seconds.
     pub fn height_period(significant_height: f32, peak_period: f32, direction: f32) -> Self {
-        let spectrum = Spectrum::Jonswap { significant_height, peak_period, gamma: 3.3 };
+        Self::jonswap(significant_height, peak_period, 3.3, direction)
+    }
+
+    /// TMA: the wind sea of [`SeaState::wind`] over water of a finite depth, metres, which lessens its long waves.
+    pub fn tma(wind_speed: f32, fetch: f32, direction: f32, depth: f32) -> Self {
+        let mut sea = Self { depth: Some(depth), ..Self::wind(wind_speed, fetch, direction) };
+        sea.partitions[0].depth_limited = true;
+        sea
+    }
+
+    /// JONSWAP by significant height in metres, peak period in seconds and peak enhancement (1 to 20), direction in
+    /// radians.
+    pub fn jonswap(significant_height: f32, peak_period: f32, gamma: f32, direction: f32) -> Self {
+        let spectrum = Spectrum::Jonswap { significant_height, peak_period, gamma };
         Self::single(spectrum, direction, Spreading::Cos2s { s: WIND_SEA_S })
     }
 
@@ -122,7 +56,18 @@ impl SeaState {
 
     /// A sea of one partition over deep water.
     pub fn single(spectrum: Spectrum, direction: f32, spreading: Spreading) -> Self {
-        Self { partitions: vec![Partition { spectrum, direction, spreading }], depth: None }
+        Self { partitions: vec![Partition::new(spectrum, direction, spreading)], depth: None }
+    }
+
+    /// The same sea with [swell](Partition::swell) on top.
+    pub fn with_swell(self, significant_height: f32, peak_period: f32, direction: f32) -> Self {
+        self.with(Partition::swell(significant_height, peak_period, direction))
+    }
+
+    /// The same sea with one more partition.
+    pub fn with(mut self, partition: Partition) -> Self {
+        self.partitions.push(partition);
+        self
     }
 
     /// Reads a sea file; the format is described at [`SeaState::parse`].
@@ -164,57 +109,4 @@ impl SeaState {
         }
         self.partitions.iter().try_for_each(Partition::validate)
     }
-}
-
-impl Partition {
-    fn validate(&self) -> Result<(), OceanError> {
-        check("direction", self.direction.into(), self.direction.abs() <= 1e3, "a finite angle in radians")?;
-        if let Spreading::Cos2s { s } = self.spreading {
-            check_s(s)?;
-        }
-        match &self.spectrum {
-            &Spectrum::Phillips { wind_speed, significant_height } => {
-                check_wind(wind_speed)?;
-                check_height(significant_height)
-            }
-            &Spectrum::PiersonMoskowitz { wind_speed } => check_wind(wind_speed),
-            &Spectrum::JonswapFetch { wind_speed, fetch } => {
-                check_wind(wind_speed)?;
-                check("fetch", fetch.into(), fetch >= 100.0, "from 100 m")
-            }
-            &Spectrum::Jonswap { significant_height, peak_period, gamma } => {
-                check_height(significant_height)?;
-                check("peak_period", peak_period.into(), (0.5..=40.0).contains(&peak_period), "0.5 to 40 s")?;
-                check("gamma", gamma.into(), (1.0..=20.0).contains(&gamma), "1 to 20")
-            }
-            Spectrum::Table(rows) => validate_table(rows),
-        }
-    }
-}
-
-fn check_s(s: f32) -> Result<(), OceanError> {
-    check("s", s.into(), (0.0..=1000.0).contains(&s), "0 to 1000")
-}
-
-fn check_wind(wind: f32) -> Result<(), OceanError> {
-    check("wind_speed", wind.into(), (0.5..=80.0).contains(&wind), "0.5 to 80 m/s")
-}
-
-fn check_height(height: f32) -> Result<(), OceanError> {
-    check("significant_height", height.into(), height > 0.0 && height <= 40.0, "above 0 to 40 m")
-}
-
-fn validate_table(rows: &[TableRow]) -> Result<(), OceanError> {
-    check("table rows", rows.len() as f64, (3..=4096).contains(&rows.len()), "3 to 4096")?;
-    let mut last = 0.0;
-    for row in rows {
-        let f = row.frequency;
-        check("frequency", f.into(), f > last && f <= 5.0, "above the row before (and 0), up to 5 Hz")?;
-        check("density", row.density.into(), (0.0..=1e6).contains(&row.density), "0 to 1e6 m^2/Hz")?;
-        check("direction", row.direction.into(), row.direction.abs() <= 1e3, "a finite angle in radians")?;
-        check_s(row.s)?;
-        last = f;
-    }
-    let peak = rows.iter().map(|row| row.density).fold(0.0, f32::max);
-    check("largest density", peak.into(), peak > 0.0, "above 0")
 }

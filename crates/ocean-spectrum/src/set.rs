@@ -35,7 +35,9 @@ impl ModeSet {
         let modes: Vec<_> = modes::bands(&desc.cascades)
             .into_iter()
             .enumerate()
-            .map(|(c, band)| modes::build(&spectrum, desc.cascades[c], band, c, desc.seed, desc.loop_time))
+            .map(|(c, band)| {
+                modes::build(&spectrum, desc.cascades[c], band, c, desc.seed, desc.loop_time, desc.amplitudes)
+            })
             .collect();
         let mut notices = spectrum.notices().to_vec();
         let share = 1.0 - modes.iter().map(CascadeModes::variance).sum::<f64>() / spectrum.variance();

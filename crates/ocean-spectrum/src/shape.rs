@@ -1,63 +1,48 @@
 //! One partition prepared for evaluation: constants computed once, then density over frequency and direction.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-use crate::dispersion;
-use crate::sea::{Partition, Spectrum, Spreading, TableRow};
-use crate::{GRAVITY, Notice};
+use crate::partition::{Partition, Spectrum, TableRow};
+use crate::plane::Plane;
+use crate::shoal::share_at;
+use crate::spreading::{Cos2s, Spread};
+use crate::tail::Prepared;
+use crate::{GRAVITY, Notice, dispersion};
 
 /// A partition with its constants.
 pub(crate) struct Shape {
     density: Density,
+    tail: Prepared,
+    /// Depth of the sea, metres, and whether it takes its share.
+    depth: Option<f64>,
+    limited: bool,
     towards: [f64; 2],
     spread: Spread,
 }
 
 enum Density {
     /// `scale omega^-5 exp(-5/4 (peak/omega)^4) gamma^r`; Pierson-Moskowitz and both forms of JONSWAP.
-    Peaked { scale: f64, peak: f64, ln_gamma: f64 },
+    Peaked {
+        scale: f64,
+        peak: f64,
+        ln_gamma: f64,
+    },
     /// `variance (2/L^2) exp(-1/(kL)^2)/k^3` over k.
-    Phillips { variance: f64, length: f64, depth: Option<f64> },
+    Phillips {
+        variance: f64,
+        length: f64,
+        depth: Option<f64>,
+    },
     /// Rows with omega ascending.
     Table(Vec<Row>),
+    Plane(Plane),
 }
 
 struct Row {
     omega: f64,
     density: f64,
     towards: [f64; 2],
-    spread: Spread,
-}
-
-#[derive(Clone, Copy)]
-enum Spread {
-    Cos2s { s: f64, ln_norm: f64 },
-    BothWays,
-}
-
-impl Spread {
-    fn cos2s(s: f64) -> Self {
-        // Q = 2^(2s-1) Gamma(s+1)^2 / (pi Gamma(2s+1)), in logarithms so that large s does not overflow.
-        let ln2 = std::f64::consts::LN_2;
-        let ln_norm = (2.0 * s - 1.0) * ln2 + 2.0 * libm::lgamma(s + 1.0) - libm::lgamma(2.0 * s + 1.0) - libm::log(PI);
-        Self::Cos2s { s, ln_norm }
-    }
-
-    fn of(spreading: Spreading) -> Self {
-        match spreading {
-            Spreading::Cos2s { s } => Self::cos2s(s.into()),
-            Spreading::BothWays => Self::BothWays,
-        }
-    }
-
-    /// Density per radian at the angle whose cosine is `c`.
-    fn at(self, c: f64) -> f64 {
-        match self {
-            // cos^2(theta/2) = (1 + cos theta)/2, kept off 0 for the logarithm.
-            Self::Cos2s { s, ln_norm } => libm::exp(ln_norm + s * libm::log((0.5 * (1.0 + c)).max(1e-300))),
-            Self::BothWays => c * c / PI,
-        }
-    }
+    spread: Cos2s,
 }
 
 impl Shape {
@@ -79,36 +64,53 @@ impl Shape {
                 let peak = TAU / f64::from(peak_period);
                 let ln_gamma = libm::log(gamma.into());
                 let unit = Density::Peaked { scale: 1.0, peak, ln_gamma };
-                let scale = hs * hs / 16.0 / unit.variance_around(peak);
+                let scale =
+                    hs * hs / 16.0 / unit.variance_around(peak, &Prepared::new(partition.tail, peak, 0.0, depth));
                 Density::Peaked { scale, peak, ln_gamma }
             }
             Spectrum::Table(rows) => Density::Table(rows.iter().map(row).collect()),
+            Spectrum::Directional(table) => Density::Plane(Plane::new(table)),
         };
-        Self { density, towards: unit(partition.direction), spread: Spread::of(partition.spreading) }
+        let (peak, known) = density.peak();
+        Self {
+            tail: Prepared::new(partition.tail, peak, known, depth),
+            depth,
+            limited: partition.depth_limited,
+            towards: unit(partition.direction),
+            spread: Spread::of(partition.spreading, partition.elongation, peak),
+            density,
+        }
     }
 
-    /// Variance density over angular frequency, m^2 s/rad.
-    pub(crate) fn density(&self, omega: f64) -> f64 {
-        self.density.at(omega)
+    /// Variance density over angular frequency, m^2 s/rad, at a frequency (rad/s) and its wavenumber (rad/m).
+    pub(crate) fn density(&self, omega: f64, k: f64) -> f64 {
+        let open = self.tail.apply(omega, k, self.depth, |omega, k| self.density.at(omega, k));
+        match self.depth {
+            Some(depth) if self.limited => open * share_at(k * depth),
+            _ => open,
+        }
     }
 
     /// Variance density over angular frequency and direction, m^2 s/rad^2, towards the unit vector `(x, z)`.
-    pub(crate) fn directional(&self, omega: f64, x: f64, z: f64) -> f64 {
+    pub(crate) fn directional(&self, omega: f64, k: f64, x: f64, z: f64) -> f64 {
         let toward = |t: &[f64; 2]| (t[0] * x + t[1] * z).clamp(-1.0, 1.0);
-        if let Density::Table(rows) = &self.density {
-            let (i, t) = locate(rows, omega);
-            let Some(a) = rows.get(i) else { return 0.0 };
-            let b = &rows[(i + 1).min(rows.len() - 1)];
-            // The mean of two spreadings has integral 1 too; one with mean parameters would not be the measured one.
-            let spread = (1.0 - t) * a.spread.at(toward(&a.towards)) + t * b.spread.at(toward(&b.towards));
-            return self.density.at(omega) * spread;
-        }
-        self.density.at(omega) * self.spread.at(toward(&self.towards))
+        let spread = match &self.density {
+            Density::Table(rows) => {
+                let (i, t) = locate(rows, omega);
+                let Some(a) = rows.get(i) else { return 0.0 };
+                let b = &rows[(i + 1).min(rows.len() - 1)];
+                // The mean of two spreadings has integral 1 too; one with mean parameters would not be the measured one.
+                (1.0 - t) * a.spread.at(toward(&a.towards)) + t * b.spread.at(toward(&b.towards))
+            }
+            Density::Plane(plane) => plane.spread(omega, x, z),
+            _ => self.spread.at(omega, toward(&self.towards)),
+        };
+        self.density(omega, k) * spread
     }
 }
 
 impl Density {
-    fn at(&self, omega: f64) -> f64 {
+    fn at(&self, omega: f64, k: f64) -> f64 {
         match self {
             &Self::Peaked { scale, peak, ln_gamma } => {
                 let ratio = peak / omega;
@@ -120,7 +122,6 @@ impl Density {
                 scale / (w2 * w2 * omega) * libm::exp(enhanced - 1.25 * r4)
             }
             &Self::Phillips { variance, length, depth } => {
-                let k = dispersion::wavenumber(omega, depth);
                 let kl = k * length;
                 let over_k = variance * 2.0 / (length * length) * libm::exp(-1.0 / (kl * kl)) / (k * k * k);
                 over_k / dispersion::group_velocity(k, depth)
@@ -133,18 +134,40 @@ impl Density {
                     None => a.density * libm::pow(a.omega / omega, 5.0),
                 }
             }
+            Self::Plane(plane) => plane.density(omega),
+        }
+    }
+
+    /// Frequency of the peak over deep water, and up to which the density is measured (0: not at all), rad/s.
+    fn peak(&self) -> (f64, f64) {
+        match self {
+            &Self::Peaked { peak, .. } => (peak, 0.0),
+            // omega^-5 exp(-(g/(U omega))^4) has its peak at (4/5)^(1/4) g/U, and g/U = sqrt(g/L).
+            &Self::Phillips { length, .. } => (libm::pow(0.8, 0.25) * (GRAVITY / length).sqrt(), 0.0),
+            Self::Table(rows) => {
+                let highest = |best: (f64, f64), row: &Row| {
+                    if row.density > best.1 { (row.omega, row.density) } else { best }
+                };
+                (rows.iter().fold((1.0, 0.0), highest).0, rows.last().map_or(0.0, |row| row.omega))
+            }
+            Self::Plane(plane) => (plane.peak(), plane.last()),
         }
     }
 
     /// Integral of a peaked density by the trapezium rule, fine against its peak width, with the omega^-5 tail
-    /// (where the exponential is within 1e-7 of 1) added in closed form.
-    fn variance_around(&self, peak: f64) -> f64 {
+    /// (where the exponential is within 1e-7 of 1) added in closed form. A tail that does not scale with the density
+    /// holds too little to count.
+    fn variance_around(&self, peak: f64, tail: &Prepared) -> f64 {
+        let at = |omega: f64| match tail {
+            Prepared::Donelan { .. } => tail.apply(omega, 0.0, None, |omega, k| self.at(omega, k)),
+            _ => self.at(omega, 0.0),
+        };
         let n = 60_000;
         let (low, high) = (0.3 * peak, 60.0 * peak);
         let step = (high - low) / f64::from(n);
-        let sum: f64 = (1..n).map(|i| self.at(low + step * f64::from(i))).sum();
-        let ends = 0.5 * (self.at(low) + self.at(high));
-        (sum + ends) * step + self.at(high) * high / 4.0
+        let sum: f64 = (1..n).map(|i| at(low + step * f64::from(i))).sum();
+        let ends = 0.5 * (at(low) + at(high));
+        (sum + ends) * step + at(high) * high / 4.0
     }
 }
 
@@ -169,7 +192,7 @@ fn row(row: &TableRow) -> Row {
         omega: TAU * f64::from(row.frequency),
         density: f64::from(row.density) / TAU,
         towards: unit(row.direction),
-        spread: Spread::cos2s(row.s.into()),
+        spread: Cos2s::new(row.s.into()),
     }
 }
 
@@ -180,31 +203,5 @@ fn locate(rows: &[Row], omega: f64) -> (usize, f64) {
     match (rows.get(i), rows.get(after)) {
         (Some(a), Some(b)) => (i, (omega - a.omega) / (b.omega - a.omega)),
         _ => (i, 0.0),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn spreading_integrates_to_one() {
-        for spread in [0.0, 0.5, 1.0, 6.0, 25.0, 100.0, 1000.0].map(Spread::cos2s).into_iter().chain([Spread::BothWays])
-        {
-            let n = 20_000;
-            let sum: f64 = (0..n).map(|i| spread.at((TAU * f64::from(i) / f64::from(n)).cos())).sum();
-            let integral = sum * TAU / f64::from(n);
-            assert!((integral - 1.0).abs() < 1e-8, "{integral}");
-        }
-    }
-
-    #[test]
-    fn spreading_has_its_circular_deviation() {
-        // Mean of cos(theta) under cos^2s is s/(s+1).
-        let n = 20_000;
-        let angles = (0..n).map(|i| TAU * f64::from(i) / f64::from(n));
-        let spread = Spread::cos2s(6.0);
-        let mean: f64 = angles.map(|a| spread.at(a.cos()) * a.cos()).sum::<f64>() * TAU / f64::from(n);
-        assert!((mean - 6.0 / 7.0).abs() < 1e-9);
     }
 }

@@ -60,7 +60,11 @@ impl Frequencies {
 /// al. 1985).
 pub fn depth_share(omega: f64, depth: Option<f64>) -> f64 {
     let Some(h) = depth else { return 1.0 };
-    let kh = dispersion::wavenumber(omega, depth) * h;
+    share_at(dispersion::wavenumber(omega, depth) * h)
+}
+
+/// The same by wavenumber times depth.
+pub(crate) fn share_at(kh: f64) -> f64 {
     // Deep enough that nothing is left to lose in an f64.
     if kh > 20.0 {
         return 1.0;

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use crate::shape::Shape;
 use crate::{Notice, OceanError, SeaState, dispersion};
 
-/// Wavenumber up to which slopes are summed, rad/m: the slowest wave (1.7 cm), where surface tension takes over. With
+/// Wavenumber up to which slopes are summed, rad/m: the slowest wave (1.7 cm), beyond which surface tension rules. With
 /// an omega^-5 tail the mean square slope grows without bound, so a cutoff is part of its meaning.
 pub const SLOPE_CUTOFF: f64 = 363.0;
 
@@ -48,8 +48,8 @@ impl WaveSpectrum {
         let mut last: Option<(f64, f64, f64)> = None;
         for i in (0..=STEPS).rev() {
             let omega = self.tabulated(i);
-            let density = self.frequency_density(omega);
             let k = dispersion::wavenumber(omega, self.depth);
+            let density: f64 = self.shapes.iter().map(|shape| shape.density(omega, k)).sum();
             let slope = density * k * k;
             if let Some((omega_above, density_above, slope_density_above)) = last {
                 let step = 0.5 * (omega_above - omega);
@@ -73,7 +73,8 @@ impl WaveSpectrum {
 
     /// Variance density over angular frequency `omega` (rad/s), m^2 s/rad.
     pub fn frequency_density(&self, omega: f64) -> f64 {
-        self.shapes.iter().map(|shape| shape.density(omega)).sum()
+        let k = dispersion::wavenumber(omega, self.depth);
+        self.shapes.iter().map(|shape| shape.density(omega, k)).sum()
     }
 
     /// Variance density over the wavenumber plane at `(kx, kz)` (rad/m), m^4/rad^2: `S(omega) D (d omega/dk)/k`.
@@ -84,7 +85,7 @@ impl WaveSpectrum {
             return 0.0;
         }
         let omega = dispersion::frequency(k, self.depth);
-        let sum: f64 = self.shapes.iter().map(|shape| shape.directional(omega, kx / k, kz / k)).sum();
+        let sum: f64 = self.shapes.iter().map(|shape| shape.directional(omega, k, kx / k, kz / k)).sum();
         sum * dispersion::group_velocity(k, self.depth) / k
     }
 

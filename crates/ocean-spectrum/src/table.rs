@@ -2,7 +2,7 @@
 
 use crate::OceanError;
 use crate::file::{At, shortened, towards};
-use crate::sea::{Partition, Spectrum, Spreading, TableRow};
+use crate::partition::{Partition, Spectrum, Spreading, TableRow};
 
 const MOST_ROWS: usize = 4096;
 const NAMES: &str = "columns frequency, density, direction, and spread or r1";
@@ -53,7 +53,7 @@ pub(crate) fn parse<'a>(
         return Err(after.error("only densities of 0", "one above 0"));
     }
     // Direction and spreading are those of the rows.
-    Ok(Partition { spectrum: Spectrum::Table(rows), direction: 0.0, spreading: Spreading::BothWays })
+    Ok(Partition::new(Spectrum::Table(rows), 0.0, Spreading::BothWays))
 }
 
 impl Columns {
