@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::parameters::Keys;
-use crate::table;
 use crate::{OceanError, SeaState};
+use crate::{plane_file, table};
 
 /// Largest file that is read, bytes.
 const LARGEST: u64 = 1 << 20;
@@ -103,7 +103,10 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<SeaState, OceanError> {
             if !keys.is_empty() {
                 partitions.push(std::mem::take(&mut keys).finish(keys_at)?);
             }
-            partitions.push(table::parse(at, line, &mut lines, end)?);
+            partitions.push(match line.strip_prefix("directions") {
+                Some(directions) => plane_file::parse(at, directions, &mut lines, end)?,
+                None => table::parse(at, line, &mut lines, end)?,
+            });
         }
     }
     if !keys.is_empty() {
@@ -111,6 +114,9 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<SeaState, OceanError> {
     }
     if partitions.is_empty() {
         return Err(end.error("no sea", "`key = value` lines or a table with a line of column names"));
+    }
+    if depth.is_none() && partitions.iter().any(|partition| partition.depth_limited) {
+        return Err(end.error("a sea limited by depth, without `depth`", "`depth`, from 0.5 to 20000"));
     }
     if partitions.len() > 16 {
         return Err(end.error(format!("{} partitions", partitions.len()), "up to 16"));

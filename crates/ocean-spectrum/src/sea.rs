@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::error::check;
 use crate::partition::{Partition, Spectrum, Spreading, WIND_SEA_S};
-use crate::{OceanError, file};
+use crate::{OceanError, file, ndbc};
 
 /// A sea state: the sum of its partitions over water of one depth.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,21 +80,39 @@ impl SeaState {
 
     /// Reads a sea from text; `name` is what errors call the file.
     ///
-    /// `#` starts a comment. A file is `key = value` lines, then, optionally, a table.
+    /// `#` starts a comment. A file is `key = value` lines, then, optionally, tables.
     ///
-    /// Keys of a partition: `spectrum` (`phillips`, `pierson-moskowitz`, `jonswap`), `wind` m/s, `fetch` m, `hs` m,
+    /// Keys of a partition: `spectrum` (`phillips`, `pierson-moskowitz`, `jonswap`, `tma`), `wind` m/s, `fetch` m, `hs` m,
     /// `tp` s, `gamma`, `direction` (degrees clockwise from north that the waves come from: 270 travels towards +x),
-    /// `s` (exponent of the cos^2s spreading). JONSWAP takes `wind` and `fetch`, or `hs` and `tp`. A line
-    /// `[any name]` starts another partition. `depth` (m) holds for the whole sea.
+    /// `spreading` (`cos2s`, `both-ways`, `hasselmann`, `donelan-banner`), `s` (exponent of cos2s), `elongation`,
+    /// `tail` (`of-spectrum`, `donelan`, `elfouhaily`), `depth-limited` (`yes`, `no`; `tma` is `jonswap` with `yes`).
+    /// JONSWAP takes `wind` and `fetch`, or `hs` and `tp` (and `wind` too where `hasselmann` or `elfouhaily` need it). A
+    /// line `[any name]` starts another partition. `depth` (m) holds for the whole sea.
     ///
     /// A table starts with a line of column names in any order: `frequency` (Hz), `density` (m^2/Hz), `direction`
     /// (as above), and `spread` (circular standard deviation, degrees) or `r1` (first Fourier coefficient, as NDBC
     /// publishes it); then a row a line, frequencies ascending.
     ///
+    /// A table over frequency and direction starts with a line `directions` and 4 to 720 compass degrees that the waves
+    /// come from, ascending within one turn, evenly or not; then a row a line: a frequency (Hz) and, for each direction, a
+    /// density, m^2/Hz/degree. See [`DirectionalTable`](crate::DirectionalTable).
+    ///
     /// # Errors
     /// [`OceanError::File`] with line, what was found and what is allowed.
     pub fn parse(name: &str, text: &str) -> Result<Self, OceanError> {
         file::parse(name, text)
+    }
+
+    /// Reads the newest spectrum that three files of a buoy of the National Data Buoy Center have in common, in their
+    /// layout in real time: `.data_spec` (densities), `.swdir` (directions) and `.swr1` (widths).
+    ///
+    /// A frequency whose density is missing (999.0) is left out; one whose direction or width is missing, as where there
+    /// is nothing to measure, takes that of the nearest frequency that has it.
+    ///
+    /// # Errors
+    /// [`OceanError::File`] with file, line, what was found and what is allowed.
+    pub fn from_ndbc(data_spec: &str, swdir: &str, swr1: &str) -> Result<Self, OceanError> {
+        ndbc::parse(data_spec, swdir, swr1)
     }
 
     /// Checks every value of the description.

@@ -32,7 +32,8 @@ pub(crate) fn parse<'a>(
 ) -> Result<Partition, OceanError> {
     let columns = Columns::parse(at, names)?;
     let mut rows: Vec<TableRow> = Vec::new();
-    while let Some((at, line)) = lines.next_if(|(_, line)| !line.contains('=') && !line.starts_with('[')) {
+    let ends = |line: &str| line.contains('=') || line.starts_with('[') || line.starts_with("directions");
+    while let Some((at, line)) = lines.next_if(|(_, line)| !ends(line)) {
         let row = columns.row(at, line)?;
         if let Some(last) = rows.last()
             && row.frequency <= last.frequency
