@@ -62,11 +62,11 @@ fn feeds(c: &mut Criterion) {
     };
     let mut feed = EdgeFeed::new(&ocean, edge).expect("in bounds");
     let (mut outside, mut inside) = (vec![0.0; 300], vec![0.0; 300]);
-    let mut phase = 0u32;
+    let mut time = 0.0;
     c.bench_function("ocean/edge_feed/300", |b| {
         b.iter(|| {
-            phase = phase.wrapping_add(1 << 20);
-            feed.rows(black_box(phase), [&mut outside, &mut inside]);
+            time += 0.25;
+            feed.rows(ocean.moment_at(black_box(time)), [&mut outside, &mut inside]);
         });
     });
 }

@@ -143,4 +143,12 @@ impl Ocean {
         self.refresh();
         Ok(())
     }
+    /// The sea as it will be when no change is left.
+    pub fn settled(&self) -> Self {
+        let mut settled = self.clone();
+        if let Some(last) = self.segments.last() {
+            settled.set_time(last.end());
+        }
+        settled
+    }
 }

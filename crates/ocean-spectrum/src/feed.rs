@@ -9,7 +9,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use open_water_shaders::turns;
 
 use crate::error::check;
-use crate::{CascadeModes, Ocean, OceanError};
+use crate::set::ModeSet;
+use crate::{CascadeModes, Moment, Ocean, OceanError};
 
 /// Waves summed together.
 const LANES: usize = 8;
@@ -63,6 +64,13 @@ impl EdgeDesc {
 /// away inwards, as it must there. Waves that the grid does not resolve, shorter than four of its steps, are left out.
 pub struct EdgeFeed {
     count: usize,
+    sets: Vec<Fed>,
+}
+
+/// The waves of one mode set.
+struct Fed {
+    /// Which, as in [`Moment::sets`].
+    id: u64,
     groups: Vec<Group>,
 }
 
@@ -88,6 +96,20 @@ struct Wave {
     amp: [[f64; 2]; 2],
 }
 
+impl Fed {
+    fn new(set: &ModeSet, desc: &EdgeDesc) -> Self {
+        let mut groups = Vec::new();
+        for modes in &set.modes[..desc.cascades] {
+            for (m, waves) in (0..).zip(incoming(modes, desc, set.desc.loop_time)) {
+                if !waves.is_empty() {
+                    groups.push(Group::new(m, &waves, f64::from(modes.tile), desc));
+                }
+            }
+        }
+        Self { id: set.id, groups }
+    }
+}
+
 impl EdgeFeed {
     /// Sorts the sea's waves by wavenumber along the edge.
     ///
@@ -95,31 +117,30 @@ impl EdgeFeed {
     /// [`OceanError::InvalidValue`] for the first value of `desc` out of its bound.
     pub fn new(ocean: &Ocean, desc: EdgeDesc) -> Result<Self, OceanError> {
         desc.validate(ocean)?;
-        let loop_time = ocean.desc().loop_time;
-        let mut groups = Vec::new();
-        for modes in &ocean.modes()[..desc.cascades] {
-            for (m, waves) in (0..).zip(incoming(modes, &desc, loop_time)) {
-                if !waves.is_empty() {
-                    groups.push(Group::new(m, &waves, f64::from(modes.tile), &desc));
-                }
-            }
-        }
-        Ok(Self { count: desc.count, groups })
+        let parts = ocean.parts();
+        let sets = std::iter::once(parts.first()).chain(parts.second()).map(|set| Fed::new(set, &desc)).collect();
+        Ok(Self { count: desc.count, sets })
     }
 
-    /// Heights along the two rows at a phase of the sea's loop ([`Ocean::phase_at`]), metres; as many as each slice
-    /// holds, 0 beyond the edge's points. Allocates nothing.
-    pub fn rows(&mut self, phase: u32, rows: [&mut [f32]; 2]) {
+    /// Heights along the two rows at a moment of the sea ([`Ocean::moment_at`]), metres; as many as each slice holds, 0
+    /// beyond the edge's points. Allocates nothing. The feed knows the mode sets that the sea had at the time set when it
+    /// was made, and no other: make it anew when [`Ocean::revision`] has changed.
+    pub fn rows(&mut self, moment: Moment, rows: [&mut [f32]; 2]) {
         let mut rows = rows.map(|row| {
             row.fill(0.0);
             let held = row.len().min(self.count);
             &mut row[..held]
         });
-        for group in &self.groups {
-            let amps = group.amplitudes(phase);
-            for (row, [re, im]) in rows.iter_mut().zip(amps) {
-                for ((height, cos), sin) in row.iter_mut().zip(&group.cos).zip(&group.sin) {
-                    *height += re * cos - im * sin;
+        for Fed { id, groups } in &self.sets {
+            let Some(set) = moment.sets.iter().position(|other| other == id) else { continue };
+            let (phase, weight) = (moment.phase[set], moment.weight[set]);
+            for group in groups {
+                let amps = group.amplitudes(phase);
+                for (row, amp) in rows.iter_mut().zip(amps) {
+                    let [re, im] = amp.map(|part| weight * part);
+                    for ((height, cos), sin) in row.iter_mut().zip(&group.cos).zip(&group.sin) {
+                        *height += re * cos - im * sin;
+                    }
                 }
             }
         }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use glam::DVec2;
-use ocean_spectrum::{CascadeDesc, CascadeModes, EdgeDesc, EdgeFeed, Ocean, OceanDesc, SeaState, reference};
+use ocean_spectrum::{CascadeDesc, CascadeModes, EdgeDesc, EdgeFeed, Moment, Ocean, OceanDesc, SeaState, reference};
 
 fn edge() -> EdgeDesc {
     EdgeDesc {
@@ -42,7 +42,7 @@ fn halfway_it_is_the_inward_part_of_the_sea() {
             ocean.set_time(t);
             let mut rows = [vec![0.0; 300], vec![0.0; 300]];
             let [a, b] = &mut rows;
-            feed.rows(ocean.phase_at(t), [a, b]);
+            feed.rows(ocean.moment_at(t), [a, b]);
             let (mut off, mut all) = (0.0, 0.0);
             for i in (0..300).step_by(23) {
                 let along = edge.first + edge.step * i as f64;
@@ -84,7 +84,7 @@ fn across_the_edge_waves_have_the_wavenumber_of_the_grid() {
     let mut heights = [vec![0.0f32; count * times as usize], vec![0.0f32; count * times as usize]];
     let [outside, inside] = &mut heights;
     for ((i, a), b) in (0..).zip(outside.chunks_mut(count)).zip(inside.chunks_mut(count)) {
-        feed.rows(i << 24, [a, b]);
+        feed.rows(Moment { phase: [i << 24, 0], ..ocean.moment_at(0.0) }, [a, b]);
     }
     // Amplitude of e^(i (2 pi m x/tile - 2 pi n t/loop)).
     let wave = |row: &[f32], m: i32, n: u32| {
@@ -133,7 +133,7 @@ fn waves_the_grid_does_not_resolve_are_left_out() {
         let edge = EdgeDesc { step, cascades, across: [0.0, step], count: 4000, ..edge() };
         let mut feed = EdgeFeed::new(&ocean, edge).unwrap();
         let (mut a, mut b) = (vec![0.0; 4000], vec![0.0; 4000]);
-        feed.rows(1 << 30, [&mut a, &mut b]);
+        feed.rows(Moment { phase: [1 << 30, 0], ..ocean.moment_at(0.0) }, [&mut a, &mut b]);
         a.iter().map(|h| f64::from(h * h)).sum::<f64>() / 4000.0
     };
     // At steps of 40 m no wave of this sea is left, at 6 m the long ones, and the ripples add little to them.
@@ -147,8 +147,8 @@ fn rows_of_any_length_are_filled() {
     let ocean = Ocean::new(OceanDesc::default()).unwrap();
     let mut feed = EdgeFeed::new(&ocean, edge()).unwrap();
     let (mut short, mut long, mut whole) = (vec![9.0; 7], vec![9.0; 400], vec![9.0; 300]);
-    feed.rows(77, [&mut short, &mut long]);
-    feed.rows(77, [&mut whole, &mut []]);
+    feed.rows(ocean.moment_at(77.0), [&mut short, &mut long]);
+    feed.rows(ocean.moment_at(77.0), [&mut whole, &mut []]);
     assert_eq!(short, whole[..7]);
     assert!(long[299] != 0.0 && long[300..].iter().all(|&h| h == 0.0));
 }
@@ -173,4 +173,28 @@ fn edges_out_of_bounds_are_refused() {
         let error = EdgeFeed::new(&ocean, desc).err().unwrap().to_string();
         assert!(error.starts_with("edge ") && error.contains("; allowed: "), "{error}");
     }
+}
+
+#[test]
+fn during_a_change_both_seas_come_in() {
+    let rows_of = |ocean: &Ocean, moment: Moment| {
+        let mut feed = EdgeFeed::new(ocean, edge()).unwrap();
+        let (mut a, mut b) = (vec![9.0; 300], vec![9.0; 300]);
+        feed.rows(moment, [&mut a, &mut b]);
+        [a, b].concat()
+    };
+    let (old, new) = (OceanDesc::default(), OceanDesc { seed: 3, loop_time: 900.0, ..OceanDesc::default() });
+    let [mut ocean, to] = [old.clone(), new.clone()].map(|desc| Ocean::new(desc).unwrap());
+    let from = ocean.clone();
+    ocean.change_to(new, 10.0, 20.0).unwrap();
+    ocean.set_time(19.0);
+    let now = ocean.moment_at(19.0);
+    assert!(now.weight[0] > 0.3 && now.weight[1] > 0.3);
+    let parts = [&from, &to].map(|sea| rows_of(sea, sea.moment_at(19.0)));
+    for (i, height) in rows_of(&ocean, now).into_iter().enumerate() {
+        let wanted = now.weight[0] * parts[0][i] + now.weight[1] * parts[1][i];
+        assert!((height - wanted).abs() < 1e-5, "{i}: {height} {wanted}");
+    }
+    // A feed made before the change is not fooled by one that it does not know.
+    assert!(rows_of(&from, to.moment_at(19.0)).iter().all(|&height| height == 0.0));
 }

@@ -53,6 +53,9 @@ pub enum OpenWaterError {
     /// A grid with `feed` that cannot be fed.
     #[error("a grid can be fed only {0}")]
     Feed(&'static str),
+    /// A change of the sea where there is none.
+    #[error("calm water has no sea that could change: begin with a light wind")]
+    CalmSea,
     /// The ambient sea was refused.
     #[error(transparent)]
     Ocean(#[from] ocean_spectrum::OceanError),

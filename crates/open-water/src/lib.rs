@@ -44,6 +44,7 @@ mod plan;
 mod planner;
 #[cfg(feature = "rapier")]
 pub mod rapier;
+mod sea;
 mod shore;
 mod store;
 mod water;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
-use ocean_spectrum::AmplitudeMap;
+use ocean_spectrum::{AmplitudeMap, Ocean};
 use wave_grid::WaveGrid;
 
 use crate::cpu::surface::WaterSample;
@@ -99,7 +99,7 @@ impl OpenWater {
         Ok(())
     }
 
-    /// Makes all maps anew and hands them to whoever reads them.
+    /// Makes all maps anew, for the sea as it will be when no change runs, and hands them to whoever reads them.
     pub(crate) fn rebuild_shore(&mut self, terrain: Option<Terrain>) -> Result<(), OpenWaterError> {
         let medium = terrain.as_ref().map(Terrain::medium);
         for grid in self.grids.iter_mut() {
@@ -109,12 +109,37 @@ impl OpenWater {
         if let Some(gpu) = &mut self.gpu {
             gpu.remote.set_medium(medium);
         }
+        self.shore.terrain = terrain;
+        let baked = self.bake_shore();
+        self.feed_grids(&baked)?;
+        self.shore.turning = None;
+        self.show_shore(baked)
+    }
+
+    /// The maps of the land as it is.
+    pub(crate) fn bake_shore(&self) -> Baked {
+        let Some(terrain) = &self.shore.terrain else { return Baked::default() };
+        let settled = self.ocean.as_ref().map(Ocean::settled);
         let carriers: Vec<_> = self.grids.iter().filter_map(|grid| grid.fed()).map(|grid| self.carrier(grid)).collect();
-        let baked = terrain.as_ref().map(|t| bake(t, self.ocean.as_ref(), &carriers)).unwrap_or_default();
-        let feedings = self.feedings(terrain.as_ref(), &carriers, &baked)?;
+        bake(terrain, settled.as_ref(), &carriers)
+    }
+
+    /// Prepares the edges of fed grids for the sea's modes.
+    pub(crate) fn feed_grids(&mut self, baked: &Baked) -> Result<(), OpenWaterError> {
+        let (Some(terrain), Some(ocean)) = (&self.shore.terrain, &self.ocean) else { return Ok(()) };
+        let fed = self.grids.iter().filter_map(|grid| grid.fed()).map(|grid| self.carrier(grid));
+        let feedings: Vec<_> =
+            fed.map(|c| Feeding::new(c.grid, ocean, c.cascades, terrain, baked)).collect::<Result<_, _>>()?;
         for (grid, feeding) in self.grids.iter_mut().filter(|grid| grid.fed().is_some()).zip(feedings) {
             grid.feeding = Some(feeding);
         }
+        self.shore.fed_revision = self.ocean.as_ref().map_or(0, Ocean::revision);
+        Ok(())
+    }
+
+    /// Hands maps to whoever reads them.
+    pub(crate) fn show_shore(&mut self, baked: Baked) -> Result<(), OpenWaterError> {
+        let terrain = &self.shore.terrain;
         if let Some(ocean) = &mut self.ocean {
             let map = terrain.as_ref().map(|t| {
                 let bed = t.bed();
@@ -126,19 +151,9 @@ impl OpenWater {
         if let Some(gpu) = &mut self.gpu {
             gpu.set_land(terrain.as_ref().map(|terrain| baked.texels(terrain.bed())).as_ref())?;
         }
-        self.shore.terrain = terrain;
+        self.shore.baked = baked;
         self.shore.revision += 1;
         Ok(())
-    }
-
-    fn feedings(
-        &self,
-        terrain: Option<&Terrain>,
-        carriers: &[Carrier],
-        baked: &Baked,
-    ) -> Result<Vec<Feeding>, OpenWaterError> {
-        let (Some(terrain), Some(ocean)) = (terrain, &self.ocean) else { return Ok(Vec::new()) };
-        carriers.iter().map(|c| Feeding::new(c.grid, ocean, c.cascades, terrain, baked)).collect()
     }
 }
 

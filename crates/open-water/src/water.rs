@@ -254,6 +254,7 @@ impl OpenWater {
         if let Some(ocean) = &mut self.ocean {
             ocean.set_time(tick.time());
         }
+        self.follow_sea()?;
         self.reports.ticks += 1;
         Ok(())
     }

@@ -71,6 +71,19 @@ pub(crate) fn bake(terrain: &Terrain, ocean: Option<&Ocean>, carriers: &[Carrier
     baked
 }
 
+impl Baked {
+    /// The factors `share` of the way from these to those of another sea on the same land.
+    pub(crate) fn towards(&self, to: &Self, share: f32) -> Self {
+        let mix = |a: f32, b: f32| a + share * (b - a);
+        let mut baked = to.clone();
+        for (factors, from) in baked.factors.iter_mut().zip(&self.factors) {
+            factors.iter_mut().zip(from).for_each(|(to, from)| *to = mix(*from, *to));
+        }
+        baked.incoming.iter_mut().zip(&self.incoming).for_each(|(to, from)| *to = mix(*from, *to));
+        baked
+    }
+}
+
 #[cfg(feature = "gpu")]
 impl Baked {
     /// As the composite surface reads it.

@@ -15,6 +15,8 @@ pub(crate) struct Feeding {
 
 struct Fed {
     waves: EdgeFeed,
+    /// World places of the points.
+    places: Vec<DVec2>,
     /// Factor on the waves at each point.
     factors: Vec<f32>,
 }
@@ -42,16 +44,25 @@ impl Feeding {
                 cascades,
             };
             let middle = 0.5 * (line.across[0] + line.across[1]);
-            let factor = |i: usize| {
+            let place = |i: usize| {
                 let along = line.first + line.step * i as f64;
-                let place = if along_x { DVec2::new(along, middle) } else { DVec2::new(middle, along) };
-                terrain.bed().between(place, &baked.incoming)
+                if along_x { DVec2::new(along, middle) } else { DVec2::new(middle, along) }
             };
-            let factors = (0..line.count).map(factor).collect();
-            Ok(Fed { waves: EdgeFeed::new(ocean, desc)?, factors })
+            let places = (0..line.count).map(place).collect();
+            Ok(Fed { waves: EdgeFeed::new(ocean, desc)?, places, factors: Vec::new() })
         };
         let edges = grid.feed_lines().iter().map(prepare).collect::<Result<_, OpenWaterError>>()?;
-        Ok(Self { edges })
+        let mut feeding = Self { edges };
+        feeding.weigh(terrain, baked);
+        Ok(feeding)
+    }
+
+    /// Takes the factors on the incoming waves from the land's maps.
+    pub(crate) fn weigh(&mut self, terrain: &Terrain, baked: &Baked) {
+        for Fed { places, factors, .. } in &mut self.edges {
+            factors.clear();
+            factors.extend(places.iter().map(|place| terrain.bed().between(*place, &baked.incoming)));
+        }
     }
 
     /// Runs a tick of the grid that begins at `time` seconds.
@@ -60,7 +71,7 @@ impl Feeding {
         let edges = &mut self.edges;
         grid.tick_fed(&mut |edge, substep, [outside, inside]| {
             let Some(fed) = edges.get_mut(edge) else { return };
-            fed.waves.rows(ocean.phase_at(time + f64::from(substep) * dt), [&mut *outside, &mut *inside]);
+            fed.waves.rows(ocean.moment_at(time + f64::from(substep) * dt), [&mut *outside, &mut *inside]);
             for row in [outside, inside] {
                 row.iter_mut().zip(&fed.factors).for_each(|(height, factor)| *height *= factor);
             }

@@ -20,7 +20,7 @@ use crate::OpenWaterError;
 pub(crate) use bake::{Baked, Carrier, bake};
 pub use depth::{DepthMap, DepthScale};
 pub(crate) use feed::Feeding;
-pub(crate) use shore::{Shore, ShoreMark};
+pub(crate) use shore::{Shore, ShoreMark, Turning};
 pub(crate) use terrain::Terrain;
 
 /// Land around and under the water. The default of every field but the bed is none.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::Vec2;
 use wave_grid::Medium;
 
-use super::Terrain;
+use super::{Baked, Terrain};
 
 /// Land and water level.
 #[derive(Default)]
@@ -14,8 +14,37 @@ pub(crate) struct Shore {
     pub(crate) level: f32,
     /// The land at the level for which the maps were made.
     pub(crate) terrain: Option<Terrain>,
-    /// How often the maps were made.
+    /// The maps as they are shown.
+    pub(crate) baked: Baked,
+    /// How often they changed.
     pub(crate) revision: u64,
+    /// The maps' way from one sea's to another's.
+    pub(crate) turning: Option<Turning>,
+    /// The sea's modes ([`Ocean::revision`](ocean_spectrum::Ocean::revision)) with which grids are fed.
+    pub(crate) fed_revision: u64,
+}
+
+/// Maps on their way from one sea's to another's.
+pub(crate) struct Turning {
+    pub(crate) from: Baked,
+    pub(crate) to: Baked,
+    /// When it begins and how long it takes, seconds.
+    pub(crate) start: f64,
+    pub(crate) seconds: f64,
+    /// How far they are shown, 0 to 1.
+    pub(crate) shown: f32,
+}
+
+/// The maps follow a changing sea in steps of this share of the way.
+const TURN: f32 = 1.0 / 32.0;
+
+impl Turning {
+    /// The share of the way to show at `time` seconds, if it differs enough from what is shown.
+    pub(crate) fn next(&self, time: f64) -> Option<f32> {
+        let way = (((time - self.start) / self.seconds) as f32).clamp(0.0, 1.0);
+        let share = way * way * (3.0 - 2.0 * way);
+        ((share - self.shown).abs() >= TURN || (share == 1.0 && self.shown < 1.0)).then_some(share)
+    }
 }
 
 /// Tells one state of the shore from another.
