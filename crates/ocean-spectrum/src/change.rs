@@ -115,7 +115,7 @@ impl Ocean {
     pub fn change_to(&mut self, desc: OceanDesc, start: f64, seconds: f64) -> Result<(), OceanError> {
         check("start", start, true, "a finite time")?;
         check("seconds", seconds, (0.0..=86_400.0).contains(&seconds), "0 to 86400 s")?;
-        let to = Arc::new(ModeSet::new(desc)?);
+        let to = Arc::new(ModeSet::new(desc, self.base.level)?);
         let same = |(c, (a, b)): (usize, (&CascadeModes, &CascadeModes))| {
             let ok = a.size == b.size && a.tile == b.tile && a.band == b.band;
             check("cascade of a change", c as f64, ok, "size and tile as before")

@@ -1,163 +1,174 @@
-//! Inverse complex FFT of several signals at once, one per lane: the loops vectorise on any machine, and the bits are
-//! the same on all of them (twiddles from libm, no fused multiply-add, no choice of code at run time).
+//! Inverse complex FFT of several signals at once, one per lane.
 //!
-//! Stockham's self-sorting passes of radix 4, and one of radix 2 where the size asks for it (Van Loan 1992, 1.7).
+//! Decimation in frequency with radix 4 in place, and a last pass (radix 4, or 2 where the size asks for it) that writes
+//! the results in order (Van Loan 1992, 1.6 and 2.4). The same operations on any machine: see [`crate::lanes`].
 
 use std::f64::consts::TAU;
 
-/// Signals transformed together.
-pub(crate) const LANES: usize = 4;
+use fearless_simd::{Simd, prelude::*};
 
-/// One value of each lane.
-pub(crate) type Lanes = [f32; LANES];
+use crate::lanes::Complex;
 
-/// One complex value of each lane.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Complex {
-    pub(crate) re: Lanes,
-    pub(crate) im: Lanes,
-}
+/// Real and imaginary parts of w, w^2 and w^3 of a butterfly.
+type Twiddles = [f32; 6];
 
-/// A transform of one size, a power of two from 4.
+/// A transform of one size, a power of two from 16.
 pub(crate) struct Fft {
     size: usize,
-    /// Per pass of radix 4, the twiddles w, w^2, w^3 of each butterfly.
-    twiddles: Vec<Vec<[[f32; 2]; 3]>>,
+    /// Of each pass in place.
+    passes: Vec<Vec<Twiddles>>,
+    /// Where the first result of each butterfly of the last pass goes, in the order of results: the butterfly.
+    order: Vec<u32>,
 }
 
-#[inline(always)]
-fn each(f: impl Fn(usize) -> f32) -> Lanes {
-    std::array::from_fn(f)
+/// Which of a signal's values are not zero: the first `half`, and the last `half - 1`.
+#[derive(Clone, Copy)]
+pub(crate) struct Band {
+    pub(crate) half: usize,
 }
 
-impl Complex {
-    #[inline(always)]
-    fn add(self, b: Self) -> Self {
-        Self { re: each(|l| self.re[l] + b.re[l]), im: each(|l| self.im[l] + b.im[l]) }
+impl Band {
+    /// The values that are zero and must be written as such before a transform.
+    pub(crate) fn gap(self, size: usize) -> std::ops::Range<usize> {
+        if self.is_narrow(size) { 0..0 } else { self.half..size - (self.half - 1) }
     }
 
-    #[inline(always)]
-    fn sub(self, b: Self) -> Self {
-        Self { re: each(|l| self.re[l] - b.re[l]), im: each(|l| self.im[l] - b.im[l]) }
-    }
-
-    /// Times i.
-    #[inline(always)]
-    fn turned(self) -> Self {
-        Self { re: each(|l| -self.im[l]), im: self.re }
-    }
-
-    #[inline(always)]
-    fn times(self, [re, im]: [f32; 2]) -> Self {
-        Self { re: each(|l| self.re[l] * re - self.im[l] * im), im: each(|l| self.re[l] * im + self.im[l] * re) }
+    /// Whether the inner half is zero.
+    fn is_narrow(self, size: usize) -> bool {
+        self.half <= size / 4
     }
 }
 
 impl Fft {
     pub(crate) fn new(size: usize) -> Self {
-        let mut twiddles = Vec::new();
+        let mut passes = Vec::new();
         let mut n = size;
-        while n >= 4 {
+        while n > 4 {
             let power = |p: usize| {
                 let (sin, cos) = libm::sincos(TAU * (p % n) as f64 / n as f64);
                 [cos as f32, sin as f32]
             };
-            twiddles.push((0..n / 4).map(|p| [power(p), power(2 * p), power(3 * p)]).collect());
+            let twiddles = |p| {
+                let ([a, b], [c, d], [e, f]) = (power(p), power(2 * p), power(3 * p));
+                [a, b, c, d, e, f]
+            };
+            passes.push((0..n / 4).map(twiddles).collect());
             n /= 4;
         }
-        Self { size, twiddles }
+        // The digits of a butterfly's place, in base 4, are those of its result in reverse.
+        let digits = passes.len() as u32;
+        let reversed = |place: u32| (0..digits).fold(0, |r, digit| r << 2 | (place >> (2 * digit) & 3));
+        Self { size, order: (0..1 << (2 * digits)).map(reversed).collect(), passes }
     }
 
-    /// Transforms `a`, with `b` as scratch, both of the plan's size; the result is in the one returned.
-    pub(crate) fn run<'a>(&self, mut a: &'a mut [Complex], mut b: &'a mut [Complex]) -> &'a mut [Complex] {
-        let mut stride = 1;
-        for twiddles in &self.twiddles {
-            if stride == 1 {
-                first_pass(a, b, twiddles);
+    /// Transforms `line`, which is spoilt, into `out`. Values outside the band need only be set where
+    /// [`Band::gap`] says so.
+    #[inline(always)]
+    pub(crate) fn run<S: Simd>(&self, simd: S, line: &mut [f32], band: Band, out: &mut [f32]) {
+        let mut floats = self.size * Complex::<S>::FLOATS;
+        for (pass, twiddles) in self.passes.iter().enumerate() {
+            if pass == 0 && band.is_narrow(self.size) {
+                narrow_pass(simd, line, twiddles, band.half);
             } else {
-                pass(a, b, twiddles, stride);
+                for block in line.chunks_exact_mut(floats) {
+                    pass_in_place(simd, block, twiddles);
+                }
             }
-            (a, b) = (b, a);
-            stride *= 4;
+            floats /= 4;
         }
-        if stride < self.size {
-            let (low, high) = a.split_at(stride);
-            let (sum, difference) = b.split_at_mut(stride);
-            for (((x, y), sum), difference) in low.iter().zip(high).zip(sum).zip(difference) {
-                *sum = x.add(*y);
-                *difference = x.sub(*y);
-            }
-            a = b;
+        if floats == 4 * Complex::<S>::FLOATS {
+            last_pass_4(simd, line, &self.order, out);
+        } else {
+            last_pass_2(simd, line, &self.order, out);
         }
-        a
+    }
+}
+
+/// The four results before the twiddles.
+#[inline(always)]
+fn butterfly<S: Simd>(x: [Complex<S>; 4]) -> [Complex<S>; 4] {
+    let (sum, difference) = (x[0].add(x[2]), x[0].sub(x[2]));
+    let (other, turned) = (x[1].add(x[3]), x[1].sub(x[3]));
+    [sum.add(other), difference.add_turned(turned), sum.sub(other), difference.sub_turned(turned)]
+}
+
+#[inline(always)]
+fn twiddled<S: Simd>(simd: S, y: [Complex<S>; 4], w: &Twiddles) -> [Complex<S>; 4] {
+    let w = |i: usize| (S::f32s::splat(simd, w[2 * i]), S::f32s::splat(simd, w[2 * i + 1]));
+    let ((a, b), (c, d), (e, f)) = (w(0), w(1), w(2));
+    [y[0], y[1].times(a, b), y[2].times(c, d), y[3].times(e, f)]
+}
+
+#[inline(always)]
+fn quarters(x: &mut [f32]) -> [&mut [f32]; 4] {
+    let (low, high) = x.split_at_mut(x.len() / 2);
+    let ((a, b), (c, d)) = (low.split_at_mut(low.len() / 2), high.split_at_mut(high.len() / 2));
+    [a, b, c, d]
+}
+
+#[inline(always)]
+fn pass_in_place<S: Simd>(simd: S, block: &mut [f32], twiddles: &[Twiddles]) {
+    let [a, b, c, d] = quarters(block).map(|quarter| quarter.chunks_exact_mut(Complex::<S>::FLOATS));
+    for (((a, b), (c, d)), w) in a.zip(b).zip(c.zip(d)).zip(twiddles) {
+        let x = [&*a, &*b, &*c, &*d].map(|x| Complex::load(simd, x));
+        let y = twiddled(simd, butterfly(x), w);
+        y[0].store(a);
+        y[1].store(b);
+        y[2].store(c);
+        y[3].store(d);
+    }
+}
+
+/// The first pass where only values of the first and the last quarter are not zero.
+#[inline(always)]
+fn narrow_pass<S: Simd>(simd: S, line: &mut [f32], twiddles: &[Twiddles], half: usize) {
+    let first_of_last = twiddles.len() + 1 - half;
+    let [a, b, c, d] = quarters(line).map(|quarter| quarter.chunks_exact_mut(Complex::<S>::FLOATS));
+    for (p, (((a, b), (c, d)), w)) in a.zip(b).zip(c.zip(d)).zip(twiddles).enumerate() {
+        let y = if p < half && p >= first_of_last {
+            let (x, z) = (Complex::<S>::load(simd, a), Complex::load(simd, d));
+            [x.add(z), x.sub_turned(z), x.sub(z), x.add_turned(z)]
+        } else if p < half {
+            [Complex::<S>::load(simd, a); 4]
+        } else if p >= first_of_last {
+            let z = Complex::<S>::load(simd, d);
+            let (re, im) = (-z.re, -z.im);
+            [z, Complex { re: z.im, im: re }, Complex { re, im }, Complex { re: im, im: z.re }]
+        } else {
+            let zero = S::f32s::splat(simd, 0.0);
+            [Complex { re: zero, im: zero }; 4]
+        };
+        let y = twiddled(simd, y, w);
+        y[0].store(a);
+        y[1].store(b);
+        y[2].store(c);
+        y[3].store(d);
     }
 }
 
 #[inline(always)]
-fn butterfly(x: [Complex; 4], w: &[[f32; 2]; 3]) -> [Complex; 4] {
-    let (sum, difference) = (x[0].add(x[2]), x[0].sub(x[2]));
-    let (other, turned) = (x[1].add(x[3]), x[1].sub(x[3]).turned());
-    [sum.add(other), difference.add(turned).times(w[0]), sum.sub(other).times(w[1]), difference.sub(turned).times(w[2])]
-}
-
-fn quarters(x: &[Complex]) -> [&[Complex]; 4] {
-    let (low, high) = x.split_at(x.len() / 2);
-    let ((a, b), (c, d)) = (low.split_at(low.len() / 2), high.split_at(high.len() / 2));
-    [a, b, c, d]
-}
-
-/// The pass of stride 1: each butterfly has its own twiddles.
-fn first_pass(x: &[Complex], y: &mut [Complex], twiddles: &[[[f32; 2]; 3]]) {
-    let [a, b, c, d] = quarters(x);
-    let inputs = a.iter().zip(b).zip(c.iter().zip(d));
-    for ((((a, b), (c, d)), w), y) in inputs.zip(twiddles).zip(y.chunks_exact_mut(4)) {
-        y.copy_from_slice(&butterfly([*a, *b, *c, *d], w));
+fn last_pass_4<S: Simd>(simd: S, line: &[f32], order: &[u32], out: &mut [f32]) {
+    let floats = Complex::<S>::FLOATS;
+    let [a, b, c, d] = quarters(out).map(|quarter| quarter.chunks_exact_mut(floats));
+    for (((a, b), (c, d)), &place) in a.zip(b).zip(c.zip(d)).zip(order) {
+        let block = &line[place as usize * 4 * floats..][..4 * floats];
+        let x = [0, 1, 2, 3].map(|i| Complex::load(simd, &block[i * floats..][..floats]));
+        let y = butterfly::<S>(x);
+        y[0].store(a);
+        y[1].store(b);
+        y[2].store(c);
+        y[3].store(d);
     }
 }
 
-/// A later pass: `stride` butterflies share their twiddles.
-fn pass(x: &[Complex], y: &mut [Complex], twiddles: &[[[f32; 2]; 3]], stride: usize) {
-    let [a, b, c, d] = quarters(x).map(|quarter| quarter.chunks_exact(stride));
-    let inputs = a.zip(b).zip(c.zip(d));
-    for ((((a, b), (c, d)), w), y) in inputs.zip(twiddles).zip(y.chunks_exact_mut(4 * stride)) {
-        let (low, high) = y.split_at_mut(2 * stride);
-        let ((p, q), (r, s)) = (low.split_at_mut(stride), high.split_at_mut(stride));
-        let outputs = p.iter_mut().zip(q).zip(r.iter_mut().zip(s));
-        let inputs = a.iter().zip(b).zip(c.iter().zip(d));
-        for (((p, q), (r, s)), ((a, b), (c, d))) in outputs.zip(inputs) {
-            [*p, *q, *r, *s] = butterfly([*a, *b, *c, *d], w);
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn equals_the_sum_it_stands_for() {
-        for size in [4, 8, 16, 32, 64, 128, 256, 512, 1024] {
-            let value = |i: usize, lane: usize| ((i * 7919 + lane * 104_729 + 13) % 1009) as f32 / 1009.0 - 0.5;
-            let input: Vec<_> = (0..size)
-                .map(|i| Complex { re: each(|lane| value(i, lane)), im: each(|lane| value(i + size, lane)) })
-                .collect();
-            let (mut a, mut b) = (input.clone(), vec![Complex { re: [f32::NAN; LANES], im: [f32::NAN; LANES] }; size]);
-            let output = Fft::new(size).run(&mut a, &mut b);
-            let (mut off, mut all) = (0.0, 0.0);
-            for (x, output) in output.iter().enumerate() {
-                for lane in 0..LANES {
-                    let (mut re, mut im) = (0.0, 0.0);
-                    for (i, input) in input.iter().enumerate() {
-                        let (sin, cos) = (TAU * (i * x % size) as f64 / size as f64).sin_cos();
-                        let (p, q) = (f64::from(input.re[lane]), f64::from(input.im[lane]));
-                        re += p * cos - q * sin;
-                        im += p * sin + q * cos;
-                    }
-                    off += (f64::from(output.re[lane]) - re).powi(2) + (f64::from(output.im[lane]) - im).powi(2);
-                    all += re * re + im * im;
-                }
-            }
-            assert!((off / all).sqrt() < 3e-7, "{size}: {:e}", (off / all).sqrt());
-        }
+#[inline(always)]
+fn last_pass_2<S: Simd>(simd: S, line: &[f32], order: &[u32], out: &mut [f32]) {
+    let floats = Complex::<S>::FLOATS;
+    let (low, high) = out.split_at_mut(out.len() / 2);
+    for ((a, b), &place) in low.chunks_exact_mut(floats).zip(high.chunks_exact_mut(floats)).zip(order) {
+        let block = &line[place as usize * 2 * floats..][..2 * floats];
+        let (x, y) = (Complex::<S>::load(simd, &block[..floats]), Complex::load(simd, &block[floats..]));
+        x.add(y).store(a);
+        x.sub(y).store(b);
     }
 }

@@ -1,141 +1,168 @@
-//! The modes of a cascade as synthesis reads them: without empty rows and columns, rows side by side in lanes.
+//! The modes of a cascade as synthesis reads them: without empty rows and columns, columns side by side in lanes.
 
 use std::f32::consts::TAU;
 
-use rayon::prelude::*;
-
-use crate::fft::{LANES, Lanes};
-use open_water_shaders::turns;
+use fearless_simd::{Simd, prelude::*};
 
 use crate::CascadeModes;
+use crate::fft::Band;
+use crate::lanes::{Aligned, Complex, cos_sin};
 
-/// Modes in blocks of [`LANES`] rows: value `[lane]` of cell `block * width + column`. The last block is padded with
-/// modes of amplitude 0.
+/// Floats that a lane of a cell has.
+const PARTS: usize = 6;
+
+/// Modes in blocks of as many columns as there are lanes; a block's cells lie row by row. The last block is padded
+/// with modes of amplitude 0.
 pub(crate) struct Held {
     pub(crate) size: usize,
-    /// FFT indices of the rows held, and of the columns: `0..half` and `size - (half - 1)..size`.
-    pub(crate) rows: Vec<usize>,
+    pub(crate) lanes: usize,
+    /// FFT indices of the columns held, and of the rows: `0..half` and `size - (half - 1)..size`.
+    pub(crate) indices: Vec<usize>,
     pub(crate) half: usize,
-    /// Wavenumber of each column, rad/m.
-    kx: Vec<f32>,
-    /// Wavenumber of the rows of each block, rad/m.
-    kz: Vec<Lanes>,
-    cells: Vec<Cell>,
+    /// Wavenumber of each column, rad/m, padded to whole blocks.
+    kx: Aligned<f32>,
+    /// Wavenumber of each row, rad/m.
+    kz: Vec<f32>,
+    /// Of each cell: amplitudes (4), 1/k and omega, each of all lanes.
+    cells: Aligned<f32>,
+    n: Aligned<u32>,
+}
+
+/// A block of columns.
+#[derive(Clone, Copy)]
+pub(crate) struct Block<'a> {
+    kx: &'a [f32],
+    kz: &'a [f32],
+    cells: &'a [f32],
+    n: &'a [u32],
 }
 
 /// The constants of a cell.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Cell {
-    amp: [Lanes; 4],
-    n: [u32; LANES],
-    pub(crate) inverse_k: Lanes,
-    pub(crate) omega: Lanes,
+#[derive(Clone, Copy)]
+pub(crate) struct Cell<S: Simd> {
+    amp: [S::f32s; 4],
+    n: S::u32s,
+    pub(crate) kx: S::f32s,
+    pub(crate) kz: S::f32s,
+    pub(crate) inverse_k: S::f32s,
+    omega: S::f32s,
 }
 
-/// A cell at the time propagated to.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct State {
-    /// Height, real and imaginary part.
-    pub(crate) h: [Lanes; 2],
+/// A cell at a time.
+#[derive(Clone, Copy)]
+pub(crate) struct State<S: Simd> {
+    pub(crate) height: Complex<S>,
     /// Its rate.
-    pub(crate) v: [Lanes; 2],
+    pub(crate) velocity: Complex<S>,
     /// The rate of that.
-    pub(crate) a: [Lanes; 2],
-}
-
-/// One block of rows, for packing.
-pub(crate) struct Block<'a> {
-    pub(crate) kz: Lanes,
-    pub(crate) kx: &'a [f32],
-    pub(crate) cells: &'a [Cell],
-    pub(crate) now: &'a [State],
+    pub(crate) acceleration: Complex<S>,
 }
 
 impl Held {
-    pub(crate) fn new(modes: &CascadeModes, loop_time: f64) -> Self {
+    pub(crate) fn new(modes: &CascadeModes, loop_time: f64, lanes: usize) -> Self {
         let size = modes.size as usize;
-        // A mode at +k comes with one at -k, so one half-width serves both directions and both axes.
-        let half = (0..size * size)
-            .filter(|&cell| modes.n[cell] != 0)
-            .map(|cell| modes.signed((cell % size) as u32).max(modes.signed((cell / size) as u32)))
-            .max()
-            .map_or(1, |i| i.max(0) as usize + 1);
-        let rows: Vec<usize> = (0..half).chain(size - (half - 1)..size).collect();
+        // By the band alone, so that all seas on these cascades hold the same cells. A mode at +k comes with one at
+        // -k, so one half-width serves both directions and both axes.
+        let half = size / 2;
+        let half = half.min((modes.band[1] / modes.step() + 0.71).min(size as f64) as usize + 1);
+        let indices: Vec<usize> = (0..half).chain(size - (half - 1)..size).collect();
         let wavenumber = |index: usize| f64::from(modes.signed(index as u32)) * modes.step();
-        let blocks = rows.len().div_ceil(LANES);
-        let width = rows.len();
-        let mut cells = vec![Cell::default(); blocks * width];
-        let mut kz = vec![[0.0; LANES]; blocks];
-        for (r, &row) in rows.iter().enumerate() {
-            let (block, lane) = (r / LANES, r % LANES);
-            kz[block][lane] = wavenumber(row) as f32;
-            for (c, &column) in rows.iter().enumerate() {
+        let (width, blocks) = (indices.len(), indices.len().div_ceil(lanes));
+        let mut held = Self {
+            size,
+            lanes,
+            half,
+            kx: Aligned::new(blocks * lanes),
+            kz: indices.iter().map(|&row| wavenumber(row) as f32).collect(),
+            cells: Aligned::new(blocks * width * PARTS * lanes),
+            n: Aligned::new(blocks * width * lanes),
+            indices,
+        };
+        for (c, &column) in held.indices.iter().enumerate() {
+            held.kx[c] = wavenumber(column) as f32;
+            for (r, &row) in held.indices.iter().enumerate() {
                 let at = row * size + column;
-                let cell = &mut cells[block * width + c];
-                for (part, amp) in cell.amp.iter_mut().zip(modes.amp[at]) {
-                    part[lane] = amp;
-                }
-                cell.n[lane] = modes.n[at];
-                cell.omega[lane] = (f64::from(modes.n[at]) / loop_time) as f32 * TAU;
                 let k = (wavenumber(row).powi(2) + wavenumber(column).powi(2)).sqrt();
-                cell.inverse_k[lane] = if k > 0.0 { (1.0 / k) as f32 } else { 0.0 };
+                let inverse_k = if k > 0.0 { (1.0 / k) as f32 } else { 0.0 };
+                let omega = (f64::from(modes.n[at]) / loop_time) as f32 * TAU;
+                let cell = c / lanes * width + r;
+                let [a, b, c4, d] = modes.amp[at];
+                for (part, value) in [a, b, c4, d, inverse_k, omega].into_iter().enumerate() {
+                    held.cells[(cell * PARTS + part) * lanes + c % lanes] = value;
+                }
+                held.n[cell * lanes + c % lanes] = modes.n[at];
             }
         }
-        let kx = rows.iter().map(|&column| wavenumber(column) as f32).collect();
-        Self { size, rows, half, kx, kz, cells }
+        held
     }
 
-    /// Room for the states of all modes.
-    pub(crate) fn states(&self) -> Vec<State> {
-        vec![State::default(); self.cells.len()]
+    pub(crate) fn band(&self) -> Band {
+        Band { half: self.half }
     }
 
-    /// Brings every mode to a phase of the loop.
-    pub(crate) fn propagate(&self, now: &mut [State], phase: u32) {
-        now.par_iter_mut().zip(&self.cells).with_min_len(2048).for_each(|(now, cell)| *now = cell.at(phase));
+    pub(crate) fn blocks(&self) -> usize {
+        self.kx.len() / self.lanes
     }
 
-    /// The sum of two sets of modes, each at its own phase.
-    pub(crate) fn propagate_both(&self, other: &Self, now: &mut [State], phase: [u32; 2], weight: [f32; 2]) {
-        let cells = now.par_iter_mut().zip(&self.cells).zip(&other.cells).with_min_len(2048);
-        cells.for_each(|((now, a), b)| *now = State::sum(&a.at(phase[0]), &b.at(phase[1]), weight));
-    }
-
-    pub(crate) fn blocks<'a>(&'a self, now: &'a [State]) -> impl Iterator<Item = Block<'a>> {
-        let width = self.kx.len();
-        let blocks = self.kz.iter().zip(self.cells.chunks_exact(width)).zip(now.chunks_exact(width));
-        blocks.map(|((&kz, cells), now)| Block { kz, kx: &self.kx, cells, now })
-    }
-}
-
-impl Cell {
-    #[inline(always)]
-    fn at(&self, phase: u32) -> State {
-        let [a, b, c, d] = &self.amp;
-        let mut now = State::default();
-        for l in 0..LANES {
-            let [cos, sin] = turns::cos_sin(self.n[l].wrapping_mul(phase));
-            // h0(k) e^(-i omega t) and conj(h0(-k)) e^(i omega t)
-            let (p_re, p_im) = (a[l] * cos + b[l] * sin, b[l] * cos - a[l] * sin);
-            let (m_re, m_im) = (c[l] * cos - d[l] * sin, d[l] * cos + c[l] * sin);
-            now.h[0][l] = p_re + m_re;
-            now.h[1][l] = p_im + m_im;
-            let omega = self.omega[l];
-            now.v[0][l] = omega * (p_im - m_im);
-            now.v[1][l] = omega * (m_re - p_re);
-            now.a[0][l] = -omega * omega * now.h[0][l];
-            now.a[1][l] = -omega * omega * now.h[1][l];
+    pub(crate) fn block(&self, index: usize) -> Block<'_> {
+        let (lanes, cells) = (self.lanes, self.kz.len() * self.lanes);
+        Block {
+            kx: &self.kx[index * lanes..][..lanes],
+            kz: &self.kz,
+            cells: &self.cells[index * cells * PARTS..][..cells * PARTS],
+            n: &self.n[index * cells..][..cells],
         }
-        now
     }
 }
 
-impl State {
+impl Block<'_> {
     #[inline(always)]
-    fn sum(a: &Self, b: &Self, weight: [f32; 2]) -> Self {
-        let mix = |a: &[Lanes; 2], b: &[Lanes; 2]| {
-            [0, 1].map(|part| std::array::from_fn(|l| weight[0] * a[part][l] + weight[1] * b[part][l]))
-        };
-        Self { h: mix(&a.h, &b.h), v: mix(&a.v, &b.v), a: mix(&a.a, &b.a) }
+    pub(crate) fn cells<S: Simd>(self, simd: S) -> impl Iterator<Item = Cell<S>> {
+        let lanes = S::f32s::LEN;
+        let kx = S::f32s::from_slice(simd, self.kx);
+        let cells = self.kz.iter().zip(self.cells.chunks_exact(PARTS * lanes)).zip(self.n.chunks_exact(lanes));
+        cells.map(
+            #[inline(always)]
+            move |((&kz, cell), n)| {
+                let part = |i: usize| S::f32s::from_slice(simd, &cell[i * lanes..][..lanes]);
+                Cell {
+                    amp: [part(0), part(1), part(2), part(3)],
+                    n: S::u32s::from_slice(simd, n),
+                    kx,
+                    kz: S::f32s::splat(simd, kz),
+                    inverse_k: part(4),
+                    omega: part(5),
+                }
+            },
+        )
+    }
+}
+
+impl<S: Simd> Cell<S> {
+    /// The cell at a phase of the loop. What is not read of it costs nothing.
+    #[inline(always)]
+    pub(crate) fn at(&self, simd: S, phase: u32) -> State<S> {
+        let [a, b, c, d] = self.amp;
+        let Complex { re: cos, im: sin } = cos_sin(simd, self.n * S::u32s::splat(simd, phase));
+        // h0(k) e^(-i omega t) and conj(h0(-k)) e^(i omega t)
+        let there = Complex { re: a * cos + b * sin, im: b * cos - a * sin };
+        let back = Complex { re: c * cos - d * sin, im: d * cos + c * sin };
+        let height = there.add(back);
+        // -i omega (there - back)
+        let difference = Complex::<S> { re: there.im - back.im, im: back.re - there.re };
+        let negative = -(self.omega * self.omega);
+        State { height, velocity: difference.scaled(self.omega), acceleration: height.scaled(negative) }
+    }
+}
+
+impl<S: Simd> State<S> {
+    #[inline(always)]
+    pub(crate) fn sum(self, other: Self, weight: [S::f32s; 2]) -> Self {
+        let mix = |a: Complex<S>, b: Complex<S>| a.scaled(weight[0]).add(b.scaled(weight[1]));
+        Self {
+            height: mix(self.height, other.height),
+            velocity: mix(self.velocity, other.velocity),
+            acceleration: mix(self.acceleration, other.acceleration),
+        }
     }
 }

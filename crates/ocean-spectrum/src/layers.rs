@@ -8,9 +8,9 @@ use open_water_shaders::surface::{
 
 use crate::amplitude::Placed;
 use crate::kernel::Taps;
+use crate::lazy::Synthesis;
 use crate::patch::Band;
 use crate::set::ModeSet;
-use crate::synthesis::Synthesis;
 
 /// A cascade as a query reads it.
 #[derive(Clone)]
@@ -24,14 +24,14 @@ pub(crate) struct Layer {
 }
 
 impl Layer {
-    pub(crate) fn new(set: &ModeSet, c: usize) -> Self {
+    pub(crate) fn new(set: &ModeSet, c: usize, fields: Synthesis) -> Self {
         let modes = &set.modes[c];
         Self {
             offset: Vec2::ZERO,
             texels_per_metre: modes.size as f32 / modes.tile,
             size: modes.size as usize,
             band: set.bands[c],
-            fields: Synthesis::new(&set.held[c]),
+            fields,
         }
     }
 

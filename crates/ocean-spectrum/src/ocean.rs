@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use fearless_simd::Level;
 use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 
@@ -9,6 +10,7 @@ use crate::amplitude::{AmplitudeMap, Placed};
 use crate::change::Segment;
 use crate::error::check;
 use crate::layers::{Layer, Layers};
+use crate::lazy::{Outputs, Source, Synthesis};
 use crate::modes::Amplitudes;
 use crate::moment::{Moment, Parts, finite};
 use crate::set::ModeSet;
@@ -125,14 +127,19 @@ impl Ocean {
     /// # Errors
     /// As [`OceanDesc::validate`].
     pub fn new(desc: OceanDesc) -> Result<Self, OceanError> {
-        let base = Arc::new(ModeSet::new(desc)?);
-        let layers = (0..base.modes.len()).map(|c| Layer::new(&base, c)).collect();
+        Self::with_level(desc, Level::new())
+    }
+
+    /// With vector units of one's own choice.
+    pub(crate) fn with_level(desc: OceanDesc, level: Level) -> Result<Self, OceanError> {
+        let base = Arc::new(ModeSet::new(desc, level)?);
         let moment = Parts::Alone(&base).moment(0.0);
+        let source = Source { first: Arc::clone(&base), second: None, moment };
+        let pools = Arc::new(source.pools());
+        let layer = |c| Layer::new(&base, c, Synthesis::new(c, source.clone(), Arc::clone(&pools)));
+        let layers = (0..base.modes.len()).map(layer).collect();
         let segments = Vec::new();
-        let mut ocean =
-            Self { base, segments, layers, time_set: 0.0, moment, revision: 1, map: None, origin: DVec2::ZERO };
-        ocean.synthesise();
-        Ok(ocean)
+        Ok(Self { base, segments, layers, time_set: 0.0, moment, revision: 1, map: None, origin: DVec2::ZERO })
     }
 
     /// What was changed in the description or left out.
@@ -140,36 +147,33 @@ impl Ocean {
         &self.parts().first().notices
     }
 
-    /// Computes the surface at time `t`, seconds, on rayon's threads. Does nothing if it is there already. Allocates
-    /// nothing.
+    /// Sets the time, seconds (0 if not finite). Costs nothing: the surface is made where it is first read, by the
+    /// thread that reads it, or by [`Self::prepare`].
     pub fn set_time(&mut self, t: f64) {
         self.time_set = finite(t);
         self.refresh();
     }
 
+    /// Makes the surface at the time set, as far as it is wanted and not there yet, on rayon's threads. Allocates
+    /// nothing once the memory is there.
+    pub fn prepare(&mut self, outputs: Outputs) {
+        self.layers.par_iter_mut().for_each(|layer| layer.fields.prepare(outputs));
+    }
+
     /// Brings everything to the time set.
     pub(crate) fn refresh(&mut self) {
-        let moment = self.parts().moment(self.time_set);
+        let parts = self.parts();
+        let moment = parts.moment(self.time_set);
         if moment == self.moment {
             return;
         }
+        let source = Source { first: Arc::clone(parts.first()), second: parts.second().map(Arc::clone), moment };
         self.revision += u64::from(moment.sets != self.moment.sets);
         self.moment = moment;
         for c in 0..self.layers.len() {
             self.layers[c].band = self.band(c);
+            self.layers[c].fields.set_source(&source);
         }
-        self.synthesise();
-    }
-
-    fn synthesise(&mut self) {
-        let moment = self.moment;
-        let (first, second) = match self.segments.iter().rfind(|segment| segment.start <= self.time_set) {
-            None => (&self.base, None),
-            Some(segment) if self.time_set < segment.end() => (&segment.from, Some(&segment.to)),
-            Some(segment) => (&segment.to, None),
-        };
-        let second = second.map(|set| &**set);
-        self.layers.par_iter_mut().enumerate().for_each(|(c, layer)| layer.fields.run(c, first, second, moment));
     }
 
     /// World position (x, z) of the local origin, metres. The sea stays where it is in the world. Ignored if not finite.
@@ -208,7 +212,15 @@ impl Ocean {
         self.layers[c].offset
     }
 
-    /// The arrays of cascade `c`.
+    /// The displacement of cascade `c` alone; see [`CascadeFields::displacement`].
+    ///
+    /// # Panics
+    /// If there is no such cascade.
+    pub fn displacement(&self, c: usize) -> &[[f32; 4]] {
+        self.layers[c].fields.displacement()
+    }
+
+    /// The arrays of cascade `c`, all of which are made if they are not there.
     ///
     /// # Panics
     /// If there is no such cascade.

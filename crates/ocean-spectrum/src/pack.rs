@@ -5,10 +5,11 @@
 //! acceleration) is scaled by a power of two to about its partner's size, and back afterwards.
 
 use std::f64::consts::TAU;
-use std::ops::Range;
 
-use crate::fft::{Complex, LANES};
-use crate::held::Block;
+use fearless_simd::{Simd, prelude::*};
+
+use crate::held::{Cell, State};
+use crate::lanes::Complex;
 use crate::{CascadeModes, OceanDesc};
 
 /// The packing of one array of four fields.
@@ -51,55 +52,30 @@ impl Pack {
         }
     }
 
-    /// Fills a block of rows of both transforms, except the columns of `gap`, which hold no modes. With `e = i k/|k|`
-    /// per axis: `D = chop e h`, `grad h = i k h`.
-    pub(crate) fn fill(
-        self,
-        chop: f32,
-        block: &Block,
-        gap: &Range<usize>,
-        first: &mut [Complex],
-        second: &mut [Complex],
-    ) {
-        let (low, high) = (0..gap.start, gap.end..first.len());
-        let columns = low.chain(high);
-        let cells = block.kx.iter().zip(block.cells).zip(block.now);
-        for (column, ((&kx, cell), now)) in columns.zip(cells) {
-            let (first, second) = (&mut first[column], &mut second[column]);
-            let ([h_re, h_im], [v_re, v_im], [a_re, a_im]) = (&now.h, &now.v, &now.a);
-            match self {
-                Self::Displacement { scale } => {
-                    for l in 0..LANES {
-                        let unit = chop * cell.inverse_k[l];
-                        let p = 1.0 + unit * kx;
-                        let q = unit * block.kz[l] * (1.0 - scale * kx);
-                        // i times real times h
-                        (first.re[l], first.im[l]) = (-p * h_im[l], p * h_re[l]);
-                        (second.re[l], second.im[l]) = (-q * h_im[l], q * h_re[l]);
-                    }
-                }
-                Self::Derivative => {
-                    for l in 0..LANES {
-                        let kz = block.kz[l];
-                        // (i kx - kz) h and -(kx^2 + i kz^2) chop/k h
-                        first.re[l] = -kx * h_im[l] - kz * h_re[l];
-                        first.im[l] = kx * h_re[l] - kz * h_im[l];
-                        let unit = chop * cell.inverse_k[l];
-                        let (p, q) = (unit * kx * kx, unit * kz * kz);
-                        second.re[l] = q * h_im[l] - p * h_re[l];
-                        second.im[l] = -p * h_im[l] - q * h_re[l];
-                    }
-                }
-                Self::Velocity { scale } => {
-                    for l in 0..LANES {
-                        let unit = chop * cell.inverse_k[l];
-                        let p = 1.0 + unit * kx;
-                        let q = unit * block.kz[l];
-                        (first.re[l], first.im[l]) = (-p * v_im[l], p * v_re[l]);
-                        second.re[l] = -scale * a_im[l] - q * v_im[l];
-                        second.im[l] = q * v_re[l] + scale * a_re[l];
-                    }
-                }
+    /// The inputs of both transforms. With `e = i k/|k|` per axis: `D = chop e h`, `grad h = i k h`.
+    #[inline(always)]
+    pub(crate) fn pair<S: Simd>(self, simd: S, chop: S::f32s, cell: &Cell<S>, now: &State<S>) -> [Complex<S>; 2] {
+        let (kx, kz, unit) = (cell.kx, cell.kz, chop * cell.inverse_k);
+        let number = |x: f32| S::f32s::splat(simd, x);
+        // Times i.
+        let turned = |x: Complex<S>| Complex { re: -x.im, im: x.re };
+        match self {
+            Self::Displacement { scale } => {
+                let h = turned(now.height);
+                let q = unit * kz * (number(1.0) - number(scale) * kx);
+                [h.scaled(number(1.0) + unit * kx), h.scaled(q)]
+            }
+            Self::Derivative => {
+                // (i kx - kz) h and -(kx^2 + i kz^2) chop/k h
+                let h = now.height;
+                let first = turned(h).scaled(kx).sub(h.scaled(kz));
+                let (p, q) = (unit * kx * kx, unit * kz * kz);
+                [first, Complex { re: q * h.im - p * h.re, im: -(p * h.im) - q * h.re }]
+            }
+            Self::Velocity { scale } => {
+                let v = turned(now.velocity);
+                let a = turned(now.acceleration).scaled(number(scale));
+                [v.scaled(number(1.0) + unit * kx), v.scaled(unit * kz).add(a)]
             }
         }
     }

@@ -3,7 +3,11 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use fearless_simd::Level;
+
+use crate::fft::Fft;
 use crate::held::Held;
+use crate::levels::lanes;
 use crate::modes::{self, CascadeModes};
 use crate::pack::Pack;
 use crate::patch::Band;
@@ -20,7 +24,10 @@ pub(crate) struct ModeSet {
     /// The spectra of which the modes are a mix, with their shares in the amplitudes, largest first.
     pub(crate) spectra: Vec<(f64, Arc<WaveSpectrum>)>,
     pub(crate) modes: Vec<CascadeModes>,
+    /// The vector units that synthesis uses.
+    pub(crate) level: Level,
     pub(crate) held: Vec<Held>,
+    pub(crate) ffts: Vec<Fft>,
     pub(crate) packs: Vec<[Pack; 3]>,
     pub(crate) bands: Vec<Band>,
     pub(crate) frequencies: Vec<Frequencies>,
@@ -29,7 +36,7 @@ pub(crate) struct ModeSet {
 }
 
 impl ModeSet {
-    pub(crate) fn new(desc: OceanDesc) -> Result<Self, OceanError> {
+    pub(crate) fn new(desc: OceanDesc, level: Level) -> Result<Self, OceanError> {
         desc.validate()?;
         let spectrum = WaveSpectrum::new(&desc.sea)?;
         let modes: Vec<_> = modes::bands(&desc.cascades)
@@ -44,10 +51,11 @@ impl ModeSet {
         if share > 0.01 {
             notices.push(Notice::VarianceLost { share });
         }
-        Ok(Self::of(desc, vec![(1.0, Arc::new(spectrum))], modes, notices))
+        Ok(Self::of(level, desc, vec![(1.0, Arc::new(spectrum))], modes, notices))
     }
 
     fn of(
+        level: Level,
         desc: OceanDesc,
         spectra: Vec<(f64, Arc<WaveSpectrum>)>,
         modes: Vec<CascadeModes>,
@@ -56,7 +64,9 @@ impl ModeSet {
         static LAST: AtomicU64 = AtomicU64::new(0);
         Self {
             id: LAST.fetch_add(1, Ordering::Relaxed) + 1,
-            held: modes.iter().map(|modes| Held::new(modes, desc.loop_time)).collect(),
+            held: modes.iter().map(|modes| Held::new(modes, desc.loop_time, lanes(level))).collect(),
+            ffts: modes.iter().map(|modes| Fft::new(modes.size as usize)).collect(),
+            level,
             packs: modes.iter().map(|modes| Pack::all(modes, &desc)).collect(),
             bands: modes.iter().map(|modes| Band::of(modes, modes)).collect(),
             frequencies: modes.iter().map(|modes| Frequencies::of(modes, modes, desc.loop_time)).collect(),
@@ -93,7 +103,7 @@ impl ModeSet {
             *share /= sum;
         }
         let desc = OceanDesc { choppiness, ..b.desc.clone() };
-        Self::of(desc, spectra, modes, b.notices.clone())
+        Self::of(b.level, desc, spectra, modes, b.notices.clone())
     }
 
     /// See [`crate::Ocean::phase_at`].

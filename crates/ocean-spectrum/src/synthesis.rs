@@ -1,127 +1,194 @@
-//! From modes to arrays: pack two real fields into one complex transform, transform rows, then columns.
+//! From modes to arrays: pack two real fields into one complex transform, transform columns, then rows.
 //!
-//! Only the rows that hold modes are transformed along x; a band-limited cascade has few.
+//! Only the columns that hold modes are transformed along z; a band-limited cascade has few. What lies between the two
+//! directions is kept in blocks of as many columns as there are lanes.
 
-use std::sync::Arc;
-
-use glam::Mat4;
+use fearless_simd::{Simd, dispatch, prelude::*};
 use rayon::prelude::*;
 
 use crate::Moment;
-use crate::fft::{Complex, Fft, LANES, Lanes};
-use crate::held::{Held, State};
+use crate::fft::Fft;
+use crate::held::Held;
+use crate::lanes::{Complex, MOST_LANES, transpose};
 use crate::pack::Pack;
+use crate::pool::Pools;
 use crate::set::ModeSet;
 
-/// The arrays of one cascade and what makes them.
-#[derive(Clone)]
-pub(crate) struct Synthesis {
-    now: Vec<State>,
-    fft: Arc<Fft>,
-    outputs: [Output; 3],
+/// What an array of four fields is made from: two complex transforms.
+#[derive(Clone, Copy)]
+pub(crate) struct Job<'a> {
+    held: &'a Held,
+    /// The second of two mode sets that are mixed.
+    other: Option<&'a Held>,
+    level: fearless_simd::Level,
+    fft: &'a Fft,
+    pack: Pack,
+    moment: Moment,
 }
 
-/// One array of four fields: two complex transforms.
-#[derive(Clone)]
-struct Output {
-    /// Per transform, the rows after their own transform: `[lane of row]` at `block * size + x`.
-    rows: [Vec<Complex>; 2],
-    /// Input and scratch of each transform in work.
-    work: [[Vec<Complex>; 2]; 2],
-    texels: Vec<[f32; 4]>,
-}
-
-impl Synthesis {
-    pub(crate) fn new(held: &Held) -> Self {
-        let outputs = std::array::from_fn(|_| Output::new(held));
-        Self { fft: Arc::new(Fft::new(held.size)), now: held.states(), outputs }
-    }
-
-    /// Computes all arrays of cascade `c` of one or two mode sets. Every value is computed by one thread in one order,
-    /// so the bits do not depend on the number of threads.
-    pub(crate) fn run(&mut self, c: usize, first: &ModeSet, second: Option<&ModeSet>, moment: Moment) {
-        let held = &first.held[c];
-        match second {
-            None => held.propagate(&mut self.now, moment.phase[0]),
-            Some(second) => {
-                held.propagate_both(&second.held[c], &mut self.now, moment.phase, moment.weight);
-            }
-        }
-        let (now, fft) = (&self.now, &*self.fft);
-        let packs = first.packs[c];
-        self.outputs.par_iter_mut().zip(packs).for_each(|(output, pack)| {
-            output.rows(held, now, fft, pack, moment.choppiness);
-            output.columns(held, fft, pack);
-        });
-    }
-
-    pub(crate) fn displacement(&self) -> &[[f32; 4]] {
-        &self.outputs[0].texels
-    }
-
-    pub(crate) fn derivative(&self) -> &[[f32; 4]] {
-        &self.outputs[1].texels
-    }
-
-    pub(crate) fn velocity(&self) -> &[[f32; 4]] {
-        &self.outputs[2].texels
-    }
-}
-
-impl Output {
-    fn new(held: &Held) -> Self {
-        let size = held.size;
-        let line = || vec![Complex::default(); size];
+impl<'a> Job<'a> {
+    /// Array `which` of cascade `c`.
+    pub(crate) fn new(
+        (first, second): (&'a ModeSet, Option<&'a ModeSet>),
+        c: usize,
+        which: usize,
+        moment: Moment,
+    ) -> Self {
         Self {
-            rows: [(); 2].map(|()| vec![Complex::default(); held.rows.len().div_ceil(LANES) * size]),
-            work: [(); 2].map(|()| [line(), line()]),
-            texels: vec![[0.0; 4]; size * size],
+            held: &first.held[c],
+            other: second.map(|set| &set.held[c]),
+            level: first.level,
+            fft: &first.ffts[c],
+            pack: first.packs[c][which],
+            moment,
         }
     }
 
-    fn rows(&mut self, held: &Held, now: &[State], fft: &Fft, pack: Pack, chop: f32) {
-        let size = held.size;
-        let gap = held.half..size - (held.half - 1);
-        let [[a, a_scratch], [b, b_scratch]] = &mut self.work;
-        let [first, second] = &mut self.rows;
-        let out = first.chunks_exact_mut(size).zip(second.chunks_exact_mut(size));
-        for (block, (first, second)) in held.blocks(now).zip(out) {
-            pack.fill(chop, &block, &gap, a, b);
-            a[gap.clone()].fill(Complex::default());
-            b[gap.clone()].fill(Complex::default());
-            first.copy_from_slice(fft.run(a, a_scratch));
-            second.copy_from_slice(fft.run(b, b_scratch));
-        }
+    /// Floats of work memory: for the half done transforms, and for a thread's lines.
+    pub(crate) fn needs(self) -> [usize; 2] {
+        [self.half_floats(), 3 * self.line_floats()]
     }
 
-    fn columns(&mut self, held: &Held, fft: &Fft, pack: Pack) {
-        let size = held.size;
-        let gap = held.half..size - (held.half - 1);
-        let unscale = pack.unscale();
-        for x in (0..size).step_by(LANES) {
-            for (rows, [line, _]) in self.rows.iter().zip(&mut self.work) {
-                line[gap.clone()].fill(Complex::default());
-                for (rows, at) in rows.chunks_exact(size).zip(held.rows.chunks(LANES)) {
-                    let tile = &rows[x..x + LANES];
-                    let re = transposed(std::array::from_fn(|l| tile[l].re));
-                    let im = transposed(std::array::from_fn(|l| tile[l].im));
-                    for ((&z, re), im) in at.iter().zip(re).zip(im) {
-                        line[z] = Complex { re, im };
-                    }
-                }
+    /// Makes the array on rayon's threads. Every value is computed by one thread in one order: the bits are those of
+    /// [`Self::run_alone`], on any number of threads.
+    pub(crate) fn run(self, pools: &Pools, texels: &mut [[f32; 4]]) {
+        let mut half = pools.halves.take(self.half_floats());
+        let blocks = half.par_chunks_exact_mut(self.block_floats()).take(self.held.blocks()).enumerate();
+        blocks.for_each(|(block, out)| self.columns(pools, block, out));
+        let rows = self.held.lanes * self.held.size;
+        let bands = texels.par_chunks_exact_mut(rows).enumerate().with_min_len(2);
+        bands.for_each(|(band, out)| self.rows(pools, &half, band, out));
+        pools.halves.give(half);
+    }
+
+    /// The same on the calling thread.
+    pub(crate) fn run_alone(self, pools: &Pools, texels: &mut [[f32; 4]]) {
+        let mut half = pools.halves.take(self.half_floats());
+        let blocks = half.chunks_exact_mut(self.block_floats()).take(self.held.blocks()).enumerate();
+        blocks.for_each(|(block, out)| self.columns(pools, block, out));
+        let rows = self.held.lanes * self.held.size;
+        texels.chunks_exact_mut(rows).enumerate().for_each(|(band, out)| self.rows(pools, &half, band, out));
+        pools.halves.give(half);
+    }
+
+    /// Floats of a line of complex values, one in each lane.
+    fn line_floats(self) -> usize {
+        2 * self.held.size * self.held.lanes
+    }
+
+    /// Floats of a block of columns of both transforms.
+    fn block_floats(self) -> usize {
+        2 * self.line_floats()
+    }
+
+    fn half_floats(self) -> usize {
+        self.held.blocks() * self.block_floats()
+    }
+
+    /// Packs a block of columns and transforms it along z.
+    fn columns(self, pools: &Pools, block: usize, out: &mut [f32]) {
+        let mut scratch = pools.lines.take(3 * self.line_floats());
+        dispatch!(self.level, simd => columns(simd, self, block, &mut scratch, out));
+        pools.lines.give(scratch);
+    }
+
+    /// Transforms as many rows as there are lanes along x, into texels.
+    fn rows(self, pools: &Pools, half: &[f32], band: usize, out: &mut [[f32; 4]]) {
+        let mut scratch = pools.lines.take(3 * self.line_floats());
+        dispatch!(self.level, simd => rows(simd, self, half, band, &mut scratch, out.as_flattened_mut()));
+        pools.lines.give(scratch);
+    }
+}
+
+#[inline(always)]
+fn columns<S: Simd>(simd: S, job: Job<'_>, block: usize, scratch: &mut [f32], out: &mut [f32]) {
+    let floats = Complex::<S>::FLOATS;
+    let line = job.line_floats();
+    let (first, rest) = scratch.split_at_mut(line);
+    let second = &mut rest[..line];
+    // The kind of array is known within each of these, so that what it does not need is not computed.
+    match job.pack {
+        Pack::Displacement { scale } => fill(simd, job, Pack::Displacement { scale }, block, first, second),
+        Pack::Derivative => fill(simd, job, Pack::Derivative, block, first, second),
+        Pack::Velocity { scale } => fill(simd, job, Pack::Velocity { scale }, block, first, second),
+    }
+    let band = job.held.band();
+    let gap = band.gap(job.held.size);
+    for (line, out) in [first, second].into_iter().zip(out.chunks_exact_mut(line)) {
+        line[gap.start * floats..gap.end * floats].fill(0.0);
+        job.fft.run(simd, line, band, out);
+    }
+}
+
+/// Brings the modes of a block of columns to their time, packed.
+#[inline(always)]
+fn fill<S: Simd>(simd: S, job: Job<'_>, pack: Pack, block: usize, first: &mut [f32], second: &mut [f32]) {
+    let floats = Complex::<S>::FLOATS;
+    let chop = S::f32s::splat(simd, job.moment.choppiness);
+    let cells = job.held.block(block).cells(simd).zip(&job.held.indices);
+    let [phase, other_phase] = job.moment.phase;
+    let mut put = |z: usize, [p, q]: [Complex<S>; 2]| {
+        p.store(&mut first[z * floats..][..floats]);
+        q.store(&mut second[z * floats..][..floats]);
+    };
+    match job.other {
+        None => {
+            for (cell, &z) in cells {
+                put(z, pack.pair(simd, chop, &cell, &cell.at(simd, phase)));
             }
-            let [[a, a_scratch], [b, b_scratch]] = &mut self.work;
-            let (first, second) = (fft.run(a, a_scratch), fft.run(b, b_scratch));
-            let lines = self.texels.chunks_exact_mut(size);
-            for ((texels, p), q) in lines.zip(first.iter()).zip(second.iter()) {
-                let unscaled = q.im.map(|im| im * unscale);
-                texels[x..x + LANES].copy_from_slice(&transposed([p.re, p.im, q.re, unscaled]));
+        }
+        Some(other) => {
+            let weight = job.moment.weight.map(|weight| S::f32s::splat(simd, weight));
+            for ((cell, &z), other) in cells.zip(other.block(block).cells(simd)) {
+                let now = cell.at(simd, phase).sum(other.at(simd, other_phase), weight);
+                put(z, pack.pair(simd, chop, &cell, &now));
             }
         }
     }
 }
 
-/// Four values of four lanes, exchanged; through glam because its transpose is made of shuffles.
-fn transposed(values: [Lanes; LANES]) -> [Lanes; LANES] {
-    Mat4::from_cols_array_2d(&values).transpose().to_cols_array_2d()
+#[inline(always)]
+fn rows<S: Simd>(simd: S, job: Job<'_>, half: &[f32], band: usize, scratch: &mut [f32], texels: &mut [f32]) {
+    let (lanes, floats) = (S::f32s::LEN, Complex::<S>::FLOATS);
+    let (size, line_floats) = (job.held.size, job.line_floats());
+    let (line, rest) = scratch.split_at_mut(line_floats);
+    let (first, rest) = rest.split_at_mut(line_floats);
+    let second = &mut rest[..line_floats];
+    let narrow = job.held.band();
+    let gap = narrow.gap(size);
+    for (t, out) in [&mut *first, &mut *second].into_iter().enumerate() {
+        line[gap.start * floats..gap.end * floats].fill(0.0);
+        let blocks = half.chunks_exact(job.block_floats()).zip(job.held.indices.chunks(lanes));
+        for (block, indices) in blocks {
+            let tile = &block[t * line_floats + band * lanes * floats..][..lanes * floats];
+            let mut re = [S::f32s::splat(simd, 0.0); MOST_LANES];
+            let mut im = re;
+            for i in 0..lanes {
+                let value = Complex::<S>::load(simd, &tile[i * floats..][..floats]);
+                (re[i], im[i]) = (value.re, value.im);
+            }
+            transpose::<S>(&mut re);
+            transpose::<S>(&mut im);
+            for (i, &x) in indices.iter().enumerate() {
+                Complex::<S> { re: re[i], im: im[i] }.store(&mut line[x * floats..][..floats]);
+            }
+        }
+        job.fft.run(simd, line, narrow, out);
+    }
+    let unscale = S::f32s::splat(simd, job.pack.unscale());
+    // A quarter as many texels as lanes fill a vector.
+    let step = lanes / 4;
+    let pairs = first.chunks_exact(step * floats).zip(second.chunks_exact(step * floats));
+    for (x, (p, q)) in pairs.enumerate() {
+        let mut values = [unscale; MOST_LANES];
+        for (i, values) in values[..lanes].chunks_exact_mut(4).enumerate() {
+            let p = Complex::<S>::load(simd, &p[i * floats..][..floats]);
+            let q = Complex::<S>::load(simd, &q[i * floats..][..floats]);
+            values.copy_from_slice(&[p.re, p.im, q.re, q.im * unscale]);
+        }
+        transpose::<S>(&mut values);
+        for (z, value) in values[..lanes].iter().enumerate() {
+            value.store_slice(&mut texels[4 * size * z + lanes * x..][..lanes]);
+        }
+    }
 }
