@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::{DVec2, Vec2};
-use ocean_spectrum::{AmplitudeMap, EdgeDesc, EdgeFeed, Ocean, OceanSample};
+use ocean_spectrum::{AmplitudeMap, EdgeDesc, EdgeFeed, Ocean, OceanDesc, OceanSample, Outputs, SeaState};
 use open_water_benches::fixtures::{self, Random};
 
 fn ocean(size: u32) -> Ocean {
@@ -13,18 +13,37 @@ fn ocean(size: u32) -> Ocean {
 }
 
 fn synthesis(c: &mut Criterion) {
-    let mut group = c.benchmark_group("ocean/set_time");
-    for size in [128, 256, 512] {
-        let mut ocean = ocean(size);
-        let mut time = 0.0;
-        group.bench_function(BenchmarkId::from_parameter(size), |b| {
-            b.iter(|| {
-                time += 1.0 / 60.0;
-                ocean.set_time(black_box(time));
+    let wanted = [
+        ("displacement", Outputs::default()),
+        ("slopes", Outputs { slopes: true, motion: false }),
+        ("all", Outputs::ALL),
+    ];
+    for (name, outputs) in wanted {
+        let mut group = c.benchmark_group(format!("ocean/prepare/{name}"));
+        for size in [128, 256, 512] {
+            let mut ocean = ocean(size);
+            let mut time = 0.0;
+            group.bench_function(BenchmarkId::from_parameter(size), |b| {
+                b.iter(|| {
+                    time += 1.0 / 60.0;
+                    ocean.set_time(black_box(time));
+                    ocean.prepare(outputs);
+                });
             });
-        });
+        }
+        group.finish();
     }
-    group.finish();
+    let mut ocean = ocean(256);
+    let windy = OceanDesc { sea: SeaState::wind(14.0, 200e3, 0.3), ..ocean.desc().clone() };
+    ocean.change_to(windy, 0.0, 3600.0).expect("the same cascades");
+    let mut time = 0.0;
+    c.bench_function("ocean/prepare/all/changing", |b| {
+        b.iter(|| {
+            time += 1e-3;
+            ocean.set_time(black_box(time));
+            ocean.prepare(Outputs::ALL);
+        });
+    });
 }
 
 fn queries(c: &mut Criterion) {

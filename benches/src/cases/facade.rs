@@ -211,6 +211,7 @@ fn tick(context: &Context) -> Result<Vec<Row>, CaseError> {
             &mut || {
                 time += 1.0 / 60.0;
                 sea.set_time(time);
+                sea.prepare(ocean_spectrum::Outputs::ALL);
             },
         ],
     );

@@ -1,6 +1,6 @@
 //! Case `fft_gpu`: the fields that the GPU synthesises against a direct sum.
 
-use ocean_spectrum::{Ocean, gpu::GpuOcean};
+use ocean_spectrum::{Ocean, Outputs, gpu::GpuOcean};
 
 use super::ocean_fft::{NAMES, compare, exact_time};
 use crate::{
@@ -60,6 +60,7 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
                 &mut || {
                     time += 1.0 / 60.0;
                     ocean.set_time(time);
+                    ocean.prepare(Outputs::ALL);
                 },
             ],
         );

@@ -4,6 +4,7 @@
 //! the results in order (Van Loan 1992, 1.6 and 2.4). The same operations on any machine: see [`crate::lanes`].
 
 use std::f64::consts::TAU;
+use std::slice::ChunksExactMut;
 
 use fearless_simd::{Simd, prelude::*};
 
@@ -94,24 +95,29 @@ fn butterfly<S: Simd>(x: [Complex<S>; 4]) -> [Complex<S>; 4] {
 
 #[inline(always)]
 fn twiddled<S: Simd>(simd: S, y: [Complex<S>; 4], w: &Twiddles) -> [Complex<S>; 4] {
-    let w = |i: usize| (S::f32s::splat(simd, w[2 * i]), S::f32s::splat(simd, w[2 * i + 1]));
-    let ((a, b), (c, d), (e, f)) = (w(0), w(1), w(2));
-    [y[0], y[1].times(a, b), y[2].times(c, d), y[3].times(e, f)]
+    [
+        y[0],
+        y[1].times(S::f32s::splat(simd, w[0]), S::f32s::splat(simd, w[1])),
+        y[2].times(S::f32s::splat(simd, w[2]), S::f32s::splat(simd, w[3])),
+        y[3].times(S::f32s::splat(simd, w[4]), S::f32s::splat(simd, w[5])),
+    ]
 }
 
+/// The four quarters, value by value.
 #[inline(always)]
-fn quarters(x: &mut [f32]) -> [&mut [f32]; 4] {
+fn quarters<S: Simd>(x: &mut [f32]) -> [ChunksExactMut<'_, f32>; 4] {
+    let floats = Complex::<S>::FLOATS;
     let (low, high) = x.split_at_mut(x.len() / 2);
     let ((a, b), (c, d)) = (low.split_at_mut(low.len() / 2), high.split_at_mut(high.len() / 2));
-    [a, b, c, d]
+    [a.chunks_exact_mut(floats), b.chunks_exact_mut(floats), c.chunks_exact_mut(floats), d.chunks_exact_mut(floats)]
 }
 
 #[inline(always)]
 fn pass_in_place<S: Simd>(simd: S, block: &mut [f32], twiddles: &[Twiddles]) {
-    let [a, b, c, d] = quarters(block).map(|quarter| quarter.chunks_exact_mut(Complex::<S>::FLOATS));
+    let [a, b, c, d] = quarters::<S>(block);
     for (((a, b), (c, d)), w) in a.zip(b).zip(c.zip(d)).zip(twiddles) {
-        let x = [&*a, &*b, &*c, &*d].map(|x| Complex::load(simd, x));
-        let y = twiddled(simd, butterfly(x), w);
+        let x = [Complex::load(simd, a), Complex::load(simd, b), Complex::load(simd, c), Complex::load(simd, d)];
+        let y = twiddled(simd, butterfly::<S>(x), w);
         y[0].store(a);
         y[1].store(b);
         y[2].store(c);
@@ -123,7 +129,7 @@ fn pass_in_place<S: Simd>(simd: S, block: &mut [f32], twiddles: &[Twiddles]) {
 #[inline(always)]
 fn narrow_pass<S: Simd>(simd: S, line: &mut [f32], twiddles: &[Twiddles], half: usize) {
     let first_of_last = twiddles.len() + 1 - half;
-    let [a, b, c, d] = quarters(line).map(|quarter| quarter.chunks_exact_mut(Complex::<S>::FLOATS));
+    let [a, b, c, d] = quarters::<S>(line);
     for (p, (((a, b), (c, d)), w)) in a.zip(b).zip(c.zip(d)).zip(twiddles).enumerate() {
         let y = if p < half && p >= first_of_last {
             let (x, z) = (Complex::<S>::load(simd, a), Complex::load(simd, d));
@@ -149,10 +155,12 @@ fn narrow_pass<S: Simd>(simd: S, line: &mut [f32], twiddles: &[Twiddles], half: 
 #[inline(always)]
 fn last_pass_4<S: Simd>(simd: S, line: &[f32], order: &[u32], out: &mut [f32]) {
     let floats = Complex::<S>::FLOATS;
-    let [a, b, c, d] = quarters(out).map(|quarter| quarter.chunks_exact_mut(floats));
+    let [a, b, c, d] = quarters::<S>(out);
     for (((a, b), (c, d)), &place) in a.zip(b).zip(c.zip(d)).zip(order) {
         let block = &line[place as usize * 4 * floats..][..4 * floats];
-        let x = [0, 1, 2, 3].map(|i| Complex::load(simd, &block[i * floats..][..floats]));
+        let (low, high) = block.split_at(2 * floats);
+        let ((p, q), (r, s)) = (low.split_at(floats), high.split_at(floats));
+        let x = [Complex::load(simd, p), Complex::load(simd, q), Complex::load(simd, r), Complex::load(simd, s)];
         let y = butterfly::<S>(x);
         y[0].store(a);
         y[1].store(b);

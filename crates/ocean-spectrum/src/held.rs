@@ -6,7 +6,7 @@ use fearless_simd::{Simd, prelude::*};
 
 use crate::CascadeModes;
 use crate::fft::Band;
-use crate::lanes::{Aligned, Complex, cos_sin};
+use crate::lanes::{Aligned, Complex, cos_sin, f32s};
 
 /// Floats that a lane of a cell has.
 const PARTS: usize = 6;
@@ -116,26 +116,25 @@ impl Held {
 }
 
 impl Block<'_> {
+    /// The cell of the row held as number `row`.
     #[inline(always)]
-    pub(crate) fn cells<S: Simd>(self, simd: S) -> impl Iterator<Item = Cell<S>> {
+    pub(crate) fn cell<S: Simd>(self, simd: S, row: usize) -> Cell<S> {
         let lanes = S::f32s::LEN;
-        let kx = S::f32s::from_slice(simd, self.kx);
-        let cells = self.kz.iter().zip(self.cells.chunks_exact(PARTS * lanes)).zip(self.n.chunks_exact(lanes));
-        cells.map(
-            #[inline(always)]
-            move |((&kz, cell), n)| {
-                let part = |i: usize| S::f32s::from_slice(simd, &cell[i * lanes..][..lanes]);
-                Cell {
-                    amp: [part(0), part(1), part(2), part(3)],
-                    n: S::u32s::from_slice(simd, n),
-                    kx,
-                    kz: S::f32s::splat(simd, kz),
-                    inverse_k: part(4),
-                    omega: part(5),
-                }
-            },
-        )
+        let parts = &self.cells[row * PARTS * lanes..][..PARTS * lanes];
+        Cell {
+            amp: [part(simd, parts, 0), part(simd, parts, 1), part(simd, parts, 2), part(simd, parts, 3)],
+            n: S::u32s::from_slice(simd, &self.n[row * lanes..][..lanes]),
+            kx: S::f32s::from_slice(simd, self.kx),
+            kz: f32s(simd, self.kz[row]),
+            inverse_k: part(simd, parts, 4),
+            omega: part(simd, parts, 5),
+        }
     }
+}
+
+#[inline(always)]
+fn part<S: Simd>(simd: S, parts: &[f32], index: usize) -> S::f32s {
+    S::f32s::from_slice(simd, &parts[index * S::f32s::LEN..][..S::f32s::LEN])
 }
 
 impl<S: Simd> Cell<S> {
@@ -157,12 +156,11 @@ impl<S: Simd> Cell<S> {
 
 impl<S: Simd> State<S> {
     #[inline(always)]
-    pub(crate) fn sum(self, other: Self, weight: [S::f32s; 2]) -> Self {
-        let mix = |a: Complex<S>, b: Complex<S>| a.scaled(weight[0]).add(b.scaled(weight[1]));
+    pub(crate) fn sum(self, other: Self, [a, b]: [S::f32s; 2]) -> Self {
         Self {
-            height: mix(self.height, other.height),
-            velocity: mix(self.velocity, other.velocity),
-            acceleration: mix(self.acceleration, other.acceleration),
+            height: self.height.scaled(a).add(other.height.scaled(b)),
+            velocity: self.velocity.scaled(a).add(other.velocity.scaled(b)),
+            acceleration: self.acceleration.scaled(a).add(other.acceleration.scaled(b)),
         }
     }
 }

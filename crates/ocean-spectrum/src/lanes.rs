@@ -43,6 +43,12 @@ impl<S: Simd> Complex<S> {
         Self { re: self.re - b.re, im: self.im - b.im }
     }
 
+    /// Times i.
+    #[inline(always)]
+    pub(crate) fn turned(self) -> Self {
+        Self { re: -self.im, im: self.re }
+    }
+
     /// `self + i b`.
     #[inline(always)]
     pub(crate) fn add_turned(self, b: Self) -> Self {
@@ -82,23 +88,36 @@ pub(crate) fn transpose<S: Simd>(values: &mut [S::f32s; MOST_LANES]) {
 /// [`open_water_shaders::turns::cos_sin`] of every lane, to the bit.
 #[inline(always)]
 pub(crate) fn cos_sin<S: Simd>(simd: S, turns: S::u32s) -> Complex<S> {
-    let number = |x: f32| S::f32s::splat(simd, x);
-    let bits = |x: u32| S::u32s::splat(simd, x);
-    let quarter = (turns + bits(1 << 29)) >> 30;
+    let quarter = (turns + u32s(simd, 1 << 29)) >> 30;
     let rest: S::i32s = (turns - (quarter << 30)).bitcast();
-    let x = rest.to_float::<S::f32s>() * number(RADIANS);
+    let x = rest.to_float::<S::f32s>() * f32s(simd, RADIANS);
     let x2 = x * x;
-    let s = x + x * x2 * (number(SIN[0]) + x2 * (number(SIN[1]) + x2 * number(SIN[2])));
-    let c = number(1.0) - number(0.5) * x2 + x2 * x2 * (number(COS[0]) + x2 * (number(COS[1]) + x2 * number(COS[2])));
-    let odd = (quarter & bits(1)).simd_eq(bits(1));
-    let flip = |x: S::f32s, sign: S::u32s| {
-        let x: S::u32s = x.bitcast();
-        let flipped: S::f32s = (x ^ sign).bitcast();
-        flipped
-    };
-    let flip_s = (quarter & bits(2)) << 30;
-    let flip_c = ((quarter + bits(1)) & bits(2)) << 30;
-    Complex { re: flip(odd.select(s, c), flip_c), im: flip(odd.select(c, s), flip_s) }
+    let s = f32s(simd, SIN[0]) + x2 * (f32s(simd, SIN[1]) + x2 * f32s(simd, SIN[2]));
+    let s = x + x * x2 * s;
+    let c = f32s(simd, COS[0]) + x2 * (f32s(simd, COS[1]) + x2 * f32s(simd, COS[2]));
+    let c = f32s(simd, 1.0) - f32s(simd, 0.5) * x2 + x2 * x2 * c;
+    let odd = (quarter & u32s(simd, 1)).simd_eq(u32s(simd, 1));
+    let flip_s = (quarter & u32s(simd, 2)) << 30;
+    let flip_c = ((quarter + u32s(simd, 1)) & u32s(simd, 2)) << 30;
+    Complex { re: flipped::<S>(odd.select(s, c), flip_c), im: flipped::<S>(odd.select(c, s), flip_s) }
+}
+
+/// Exclusive or on the bits.
+#[inline(always)]
+fn flipped<S: Simd>(x: S::f32s, sign: S::u32s) -> S::f32s {
+    let bits: S::u32s = x.bitcast();
+    (bits ^ sign).bitcast()
+}
+
+/// The same number in every lane.
+#[inline(always)]
+pub(crate) fn f32s<S: Simd>(simd: S, x: f32) -> S::f32s {
+    S::f32s::splat(simd, x)
+}
+
+#[inline(always)]
+fn u32s<S: Simd>(simd: S, x: u32) -> S::u32s {
+    S::u32s::splat(simd, x)
 }
 
 /// An array that starts on a cache line, so that no vector lies across two.

@@ -6,10 +6,10 @@
 
 use std::f64::consts::TAU;
 
-use fearless_simd::{Simd, prelude::*};
+use fearless_simd::Simd;
 
 use crate::held::{Cell, State};
-use crate::lanes::Complex;
+use crate::lanes::{Complex, f32s};
 use crate::{CascadeModes, OceanDesc};
 
 /// The packing of one array of four fields.
@@ -56,26 +56,24 @@ impl Pack {
     #[inline(always)]
     pub(crate) fn pair<S: Simd>(self, simd: S, chop: S::f32s, cell: &Cell<S>, now: &State<S>) -> [Complex<S>; 2] {
         let (kx, kz, unit) = (cell.kx, cell.kz, chop * cell.inverse_k);
-        let number = |x: f32| S::f32s::splat(simd, x);
-        // Times i.
-        let turned = |x: Complex<S>| Complex { re: -x.im, im: x.re };
+        let one = f32s(simd, 1.0);
         match self {
             Self::Displacement { scale } => {
-                let h = turned(now.height);
-                let q = unit * kz * (number(1.0) - number(scale) * kx);
-                [h.scaled(number(1.0) + unit * kx), h.scaled(q)]
+                let h = now.height.turned();
+                let q = unit * kz * (one - f32s(simd, scale) * kx);
+                [h.scaled(one + unit * kx), h.scaled(q)]
             }
             Self::Derivative => {
                 // (i kx - kz) h and -(kx^2 + i kz^2) chop/k h
                 let h = now.height;
-                let first = turned(h).scaled(kx).sub(h.scaled(kz));
+                let first = h.turned().scaled(kx).sub(h.scaled(kz));
                 let (p, q) = (unit * kx * kx, unit * kz * kz);
                 [first, Complex { re: q * h.im - p * h.re, im: -(p * h.im) - q * h.re }]
             }
             Self::Velocity { scale } => {
-                let v = turned(now.velocity);
-                let a = turned(now.acceleration).scaled(number(scale));
-                [v.scaled(number(1.0) + unit * kx), v.scaled(unit * kz).add(a)]
+                let v = now.velocity.turned();
+                let a = now.acceleration.turned().scaled(f32s(simd, scale));
+                [v.scaled(one + unit * kx), v.scaled(unit * kz).add(a)]
             }
         }
     }

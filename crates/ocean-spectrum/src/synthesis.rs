@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::Moment;
 use crate::fft::Fft;
 use crate::held::Held;
-use crate::lanes::{Complex, MOST_LANES, transpose};
+use crate::lanes::{Complex, MOST_LANES, f32s, transpose};
 use crate::pack::Pack;
 use crate::pool::Pools;
 use crate::set::ModeSet;
@@ -124,26 +124,19 @@ fn columns<S: Simd>(simd: S, job: Job<'_>, block: usize, scratch: &mut [f32], ou
 #[inline(always)]
 fn fill<S: Simd>(simd: S, job: Job<'_>, pack: Pack, block: usize, first: &mut [f32], second: &mut [f32]) {
     let floats = Complex::<S>::FLOATS;
-    let chop = S::f32s::splat(simd, job.moment.choppiness);
-    let cells = job.held.block(block).cells(simd).zip(&job.held.indices);
+    let chop = f32s(simd, job.moment.choppiness);
+    let cells = job.held.block(block);
     let [phase, other_phase] = job.moment.phase;
-    let mut put = |z: usize, [p, q]: [Complex<S>; 2]| {
+    let weight = [f32s(simd, job.moment.weight[0]), f32s(simd, job.moment.weight[1])];
+    for (row, &z) in job.held.indices.iter().enumerate() {
+        let cell = cells.cell(simd, row);
+        let mut now = cell.at(simd, phase);
+        if let Some(other) = job.other {
+            now = now.sum(other.block(block).cell(simd, row).at(simd, other_phase), weight);
+        }
+        let [p, q] = pack.pair(simd, chop, &cell, &now);
         p.store(&mut first[z * floats..][..floats]);
         q.store(&mut second[z * floats..][..floats]);
-    };
-    match job.other {
-        None => {
-            for (cell, &z) in cells {
-                put(z, pack.pair(simd, chop, &cell, &cell.at(simd, phase)));
-            }
-        }
-        Some(other) => {
-            let weight = job.moment.weight.map(|weight| S::f32s::splat(simd, weight));
-            for ((cell, &z), other) in cells.zip(other.block(block).cells(simd)) {
-                let now = cell.at(simd, phase).sum(other.at(simd, other_phase), weight);
-                put(z, pack.pair(simd, chop, &cell, &now));
-            }
-        }
     }
 }
 
@@ -161,7 +154,7 @@ fn rows<S: Simd>(simd: S, job: Job<'_>, half: &[f32], band: usize, scratch: &mut
         let blocks = half.chunks_exact(job.block_floats()).zip(job.held.indices.chunks(lanes));
         for (block, indices) in blocks {
             let tile = &block[t * line_floats + band * lanes * floats..][..lanes * floats];
-            let mut re = [S::f32s::splat(simd, 0.0); MOST_LANES];
+            let mut re = [f32s(simd, 0.0); MOST_LANES];
             let mut im = re;
             for i in 0..lanes {
                 let value = Complex::<S>::load(simd, &tile[i * floats..][..floats]);
@@ -175,7 +168,7 @@ fn rows<S: Simd>(simd: S, job: Job<'_>, half: &[f32], band: usize, scratch: &mut
         }
         job.fft.run(simd, line, narrow, out);
     }
-    let unscale = S::f32s::splat(simd, job.pack.unscale());
+    let unscale = f32s(simd, job.pack.unscale());
     // A quarter as many texels as lanes fill a vector.
     let step = lanes / 4;
     let pairs = first.chunks_exact(step * floats).zip(second.chunks_exact(step * floats));

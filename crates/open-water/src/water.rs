@@ -2,7 +2,7 @@
 
 use floating_body::{Body, BodyDesc, Controls};
 use glam::Vec2;
-use ocean_spectrum::Ocean;
+use ocean_spectrum::{Ocean, Outputs};
 use wave_grid::WaveGrid;
 
 use crate::OpenWaterError;
@@ -239,6 +239,10 @@ impl OpenWater {
             return Err(OpenWaterError::TickOutOfOrder { expected, found: tick.index });
         }
         if self.bodies.read(store, tick.dt, &mut self.reports) {
+            if let Some(ocean) = &mut self.ocean {
+                // On all threads; the bodies' tasks would wait for whichever asks first.
+                ocean.prepare(Outputs::ALL);
+            }
             self.bodies.step(tick.dt, Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore });
             self.bodies.disturb(&mut self.grids);
             self.bodies.write(store);
