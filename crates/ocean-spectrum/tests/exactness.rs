@@ -67,7 +67,7 @@ fn the_sea_is_the_same_bits_everywhere() {
     // Written down once: nothing in the path depends on the machine.
     let mut ocean = sea(256.0);
     ocean.set_time(77.0);
-    assert_eq!(self::hash(&ocean), 0xc4dc_1e68_f49e_cf37, "{:#x}", self::hash(&ocean));
+    assert_eq!(self::hash(&ocean), 0x72db_4a35_823c_cdaa, "{:#x}", self::hash(&ocean));
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     for modes in ocean.modes() {
         for value in modes.amp.iter().flatten().map(|a| a.to_bits()).chain(modes.n.iter().copied()) {
