@@ -15,7 +15,7 @@ use crate::{Pass, param_layout, turns};
 pub const MIN_SIZE: u32 = 16;
 /// Largest side of a cascade, cells.
 pub const MAX_SIZE: u32 = 1024;
-/// Points that a thread of a transform holds: its radix.
+/// Points that a thread of a transform holds: its radix. A stage of radix 32 holds twice as many.
 pub const FFT_POINTS: u32 = 16;
 /// Points in a workgroup's memory: as many lines as that holds (16 bytes a point, 16 KiB).
 pub const FFT_BLOCK: u32 = 1024;
@@ -32,16 +32,18 @@ pub struct OceanCascade {
     pub foam_spread: f32,
     /// Mean foam that the other cascades account for, 0 to 1.
     pub foam_share: f32,
-    /// Padding.
-    pub pad: f32,
+    /// Rows and columns `0..half` and `N - half + 1..N` of the cells may hold modes; at most N/2.
+    pub half: u32,
 }
 
 /// Uniform of the ocean's passes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct OceanParams {
-    /// Time as a fraction of the loop, in 1/2^32.
-    pub phase: u32,
+    /// Time as a fraction of the loop of each mode set, in 1/2^32.
+    pub phase: [u32; 2],
+    /// Factor on the amplitudes of each mode set.
+    pub weight: [f32; 2],
     /// Number of cascades.
     pub cascade_count: u32,
     /// Factor on the horizontal displacement.
@@ -50,15 +52,13 @@ pub struct OceanParams {
     pub foam_threshold: f32,
     /// Factor on old foam, 0 to 1.
     pub foam_decay: f32,
-    /// Padding.
-    pub pad: [u32; 3],
     /// Cascades, longest first.
     pub cascades: [OceanCascade; MAX_CASCADES],
 }
 
 const PARAMS: &[crate::ParamLayout] = &[
-    param_layout!(OceanCascade { wave_step, foam_spread, foam_share }),
-    param_layout!(OceanParams { phase, cascade_count, choppiness, foam_threshold, foam_decay, cascades }),
+    param_layout!(OceanCascade { wave_step, foam_spread, foam_share, half }),
+    param_layout!(OceanParams { phase, weight, cascade_count, choppiness, foam_threshold, foam_decay, cascades }),
 ];
 
 /// WGSL function whose body is `statement` once per point, `{e}` replaced by its number: a thread's points stay in
@@ -73,15 +73,11 @@ fn constants() -> String {
     format!("const OCEAN_CASCADES: u32 = {MAX_CASCADES}u;\n")
 }
 
-fn stage_constants() -> String {
+fn fft_constants() -> String {
     [
         constants(),
         format!("const THREADS: u32 = {FFT_THREADS}u;\n"),
         turns::constants(),
-        unrolled(
-            "points_fetch(v: ptr<function, Points>, place: Place, t: u32)",
-            "(*v)[{e}] = fetch(place, t + {e}u * THREADS_PER_LINE)",
-        ),
         unrolled(
             "points_emit(v: ptr<function, Points>, place: Place, first: u32, step: u32)",
             "emit(place, first + {e}u * step, (*v)[{e}])",
@@ -90,9 +86,44 @@ fn stage_constants() -> String {
     .concat()
 }
 
+fn points_fetch() -> String {
+    unrolled(
+        "points_fetch(v: ptr<function, Points>, place: Place, t: u32)",
+        "if !is_empty({e}u) { (*v)[{e}] = fetch(place, t + {e}u * THREADS_PER_LINE); }",
+    )
+}
+
+fn points_butterfly() -> String {
+    unrolled(
+        "points_butterfly(v: ptr<function, Points>, w: ptr<function, Points>, turns: u32)",
+        "butterfly(v, w, {e}u, turns_cos_sin(turns + {e}u * 0x08000000u))",
+    )
+}
+
+fn first_constants() -> String {
+    [
+        fft_constants(),
+        points_butterfly(),
+        unrolled(
+            "points_fetch_both(v: ptr<function, Points>, u: ptr<function, Points>, place: Place, t: u32)",
+            "if !is_empty({e}u) { \
+                let s{e} = spectra(place, t + {e}u * THREADS_PER_LINE); \
+                (*v)[{e}] = s{e}.displacement; \
+                (*u)[{e}] = s{e}.derivative; \
+            }",
+        ),
+    ]
+    .concat()
+}
+
+fn stage_constants() -> String {
+    [fft_constants(), points_fetch(), points_butterfly()].concat()
+}
+
 fn line_constants() -> String {
     [
-        stage_constants(),
+        fft_constants(),
+        points_fetch(),
         format!("const BLOCK: u32 = {FFT_BLOCK}u;\n"),
         unrolled(
             "points_load(v: ptr<function, Points>, line: u32, t: u32)",
@@ -106,13 +137,15 @@ fn line_constants() -> String {
     .concat()
 }
 
-const STAGE_TEXT: &str = concat!(
+const FFT_TEXT: &str = concat!(
     include_str!("../wgsl/shared/turns.wgsl"),
     include_str!("../wgsl/shared/ocean.wgsl"),
+    include_str!("../wgsl/shared/ocean_place.wgsl"),
     include_str!("../wgsl/shared/fft.wgsl"),
     include_str!("../wgsl/shared/fft_last.wgsl"),
     include_str!("../wgsl/shared/fft_stage.wgsl"),
 );
+const WIDE_TEXT: &str = include_str!("../wgsl/shared/fft_wide.wgsl");
 const LINE_TEXT: &str = include_str!("../wgsl/shared/fft_lines.wgsl");
 const MODES_TEXT: &str = include_str!("../wgsl/shared/ocean_modes.wgsl");
 
@@ -120,7 +153,7 @@ const MODES_TEXT: &str = include_str!("../wgsl/shared/ocean_modes.wgsl");
 pub const ROWS: Pass = Pass {
     name: "ocean_rows",
     constants: line_constants,
-    parts: &[STAGE_TEXT, LINE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_rows.wgsl")],
+    parts: &[FFT_TEXT, LINE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_rows.wgsl")],
     entry_points: &["ocean_rows"],
     params: PARAMS,
 };
@@ -129,7 +162,7 @@ pub const ROWS: Pass = Pass {
 pub const COLUMNS: Pass = Pass {
     name: "ocean_columns",
     constants: line_constants,
-    parts: &[STAGE_TEXT, LINE_TEXT, include_str!("../wgsl/ocean_columns.wgsl")],
+    parts: &[FFT_TEXT, LINE_TEXT, include_str!("../wgsl/ocean_columns.wgsl")],
     entry_points: &["ocean_columns"],
     params: PARAMS,
 };
@@ -137,8 +170,8 @@ pub const COLUMNS: Pass = Pass {
 /// The spectra at one time and the first stage of their transforms along x.
 pub const FIRST: Pass = Pass {
     name: "ocean_first",
-    constants: stage_constants,
-    parts: &[STAGE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_first.wgsl")],
+    constants: first_constants,
+    parts: &[FFT_TEXT, WIDE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_first.wgsl")],
     entry_points: &["ocean_first"],
     params: PARAMS,
 };
@@ -147,7 +180,7 @@ pub const FIRST: Pass = Pass {
 pub const STAGE: Pass = Pass {
     name: "ocean_stage",
     constants: stage_constants,
-    parts: &[STAGE_TEXT, include_str!("../wgsl/ocean_stage.wgsl")],
+    parts: &[FFT_TEXT, WIDE_TEXT, include_str!("../wgsl/ocean_stage.wgsl")],
     entry_points: &["ocean_stage"],
     params: PARAMS,
 };

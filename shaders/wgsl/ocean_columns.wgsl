@@ -8,6 +8,9 @@ fn line_index(line: u32, i: u32) -> u32 {
 }
 
 fn fetch(place: Place, i: u32) -> vec4<f32> {
+    if !may_hold_modes(place, i) {
+        return vec4<f32>(0.0);
+    }
     return textureLoad(input, vec2<u32>(place.line, i), place.layer, 0);
 }
 

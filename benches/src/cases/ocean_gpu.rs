@@ -31,8 +31,8 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
     for &size in context.pick(&[128, 256][..], &[64, 128, 256, 512, 1024]) {
         let mut ocean = Ocean::new(fixtures::ocean(size))?;
         let mut gpu_ocean = GpuOcean::new(&gpu.device, &ocean)?;
-        let phase = ocean.phase_at(exact_time(&ocean));
-        gpu.run(|encoder| gpu_ocean.encode_fields(&gpu.queue, encoder, phase))?;
+        let time = exact_time(&ocean);
+        gpu.run(|encoder| gpu_ocean.encode_fields(&gpu.queue, encoder, &ocean, time))?;
         let texels = gpu.read_texture(gpu_ocean.fields())?;
         let (layer, cascades) = ((size * size) as usize, ocean.modes().len());
         let mut worst = (0.0f64, "");
@@ -47,15 +47,18 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
                 }
             }
         }
-        let (mut phase, mut time) = (0, 0.0);
+        let still = Ocean::new(fixtures::ocean(size))?;
+        let (mut drawn, mut time) = (0.0, 0.0);
         let mut failed = None;
         let [ours, cpu] = measure_together(
             context.effort,
             [
                 &mut || {
-                    phase += 69_905;
-                    failed =
-                        gpu.run(|encoder| gpu_ocean.encode_fields(&gpu.queue, encoder, phase)).err().or(failed.take());
+                    drawn += 1.0 / 60.0;
+                    failed = gpu
+                        .run(|encoder| gpu_ocean.encode_fields(&gpu.queue, encoder, &still, drawn))
+                        .err()
+                        .or(failed.take());
                 },
                 &mut || {
                     time += 1.0 / 60.0;

@@ -9,7 +9,7 @@ fn swizzle(i: u32) -> u32 {
 }
 
 fn exchange(v: ptr<function, Points>, line: u32, t: u32, done: u32) {
-    points_store(v, line, stage_target(t, done), done);
+    points_store(v, line, stage_target(t, done, 16u), done);
     workgroupBarrier();
     points_load(v, line, t);
 }

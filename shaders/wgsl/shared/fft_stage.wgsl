@@ -32,7 +32,7 @@ fn twiddle16(v: ptr<function, Points>, turns: u32) {
 }
 
 // Radix-16 stage after `done` points of each line are transformed among themselves. Its results belong at
-// `stage_target(t, done) + e done`.
+// `stage_target(t, done, 16) + e done`.
 fn stage16(v: ptr<function, Points>, t: u32, done: u32) {
     if done > 1u {
         twiddle16(v, (t % done) * (0x10000000u / done));
@@ -40,7 +40,7 @@ fn stage16(v: ptr<function, Points>, t: u32, done: u32) {
     radix16(v);
 }
 
-fn stage_target(t: u32, done: u32) -> u32 {
+fn stage_target(t: u32, done: u32, radix: u32) -> u32 {
     let within = t % done;
-    return (t - within) * 16u + within;
+    return (t - within) * radix + within;
 }

@@ -5,32 +5,19 @@ struct OceanCascade {
     foam_spread: f32,
     // Foam of this cascade that the others account for.
     foam_share: f32,
-    pad: f32,
+    // Rows and columns `0..half` and `N - half + 1..N` may hold modes, at most N/2.
+    half: u32,
 }
 
 struct OceanParams {
-    phase: u32,
+    // Time within the loop of each mode set, and factor on its amplitudes.
+    phase: vec2<u32>,
+    weight: vec2<f32>,
     cascade_count: u32,
     choppiness: f32,
     // Jacobian below which water breaks.
     foam_threshold: f32,
     // Factor on old foam.
     foam_decay: f32,
-    pad_a: u32,
-    pad_b: u32,
-    pad_c: u32,
     cascades: array<OceanCascade, OCEAN_CASCADES>,
-}
-
-// A row or a column of a layer. Layers: pair 0 of each cascade (displacement), then pair 1 (derivative).
-struct Place {
-    cascade: u32,
-    pair: u32,
-    layer: u32,
-    line: u32,
-}
-
-fn place_of(layer: u32, line: u32) -> Place {
-    let pair = select(0u, 1u, layer >= ocean.cascade_count);
-    return Place(layer - pair * ocean.cascade_count, pair, layer, line);
 }

@@ -5,9 +5,7 @@
 //! the sum breaks given its own derivatives, less the share of the mean that the other cascades' texels bring. That is
 //! the best approximation of the sum's foam by a sum over cascades (the first-order terms of its analysis of variance).
 
-use open_water_shaders::ocean::OceanCascade;
-
-use crate::{CascadeModes, Ocean};
+use crate::{CascadeModes, Moment, Ocean};
 
 /// Seconds in which foam fades to 1/e.
 pub const FOAM_SECONDS: f32 = 4.0;
@@ -22,38 +20,60 @@ pub(super) fn decay(dt: f32) -> f32 {
     libm::expf(-dt / FOAM_SECONDS)
 }
 
-/// Variance of the divergence of the horizontal displacement.
-fn divergence_variance(modes: &CascadeModes, choppiness: f64) -> f64 {
-    let step = modes.step();
-    let size = modes.size as usize;
-    let sum: f64 = (0..)
-        .zip(&modes.amp)
-        .map(|(cell, a): (usize, _)| {
-            let [i, j] = [cell % size, cell / size].map(|x| f64::from(modes.signed(x as u32)));
-            (i * i + j * j) * (f64::from(a[0]).powi(2) + f64::from(a[1]).powi(2))
-        })
-        .sum();
-    2.0 * (choppiness * step).powi(2) * sum
+/// Variance of the divergence of the horizontal displacement at choppiness 1, of each cascade: that of the first mode
+/// set, that of the second, and the mixed term, so that of a mix follows from its weights.
+#[derive(Debug, Default)]
+pub(super) struct Divergence {
+    sets: [u64; 2],
+    terms: Vec<[f64; 3]>,
 }
 
-/// What the shader knows of each cascade.
-pub(super) fn cascades(ocean: &Ocean) -> Vec<OceanCascade> {
-    let choppiness = f64::from(ocean.desc().choppiness);
-    let variances: Vec<f64> = ocean.modes().iter().map(|modes| divergence_variance(modes, choppiness)).collect();
-    let total: f64 = variances.iter().sum();
-    let spread = |variance: f64| (variance + SOFTNESS * SOFTNESS).sqrt();
-    // Logistic in place of the normal distribution, as in the shader.
-    let mean = 1.0 / (1.0 + libm::exp(1.702 * (1.0 - f64::from(FOAM_THRESHOLD)) / spread(total)));
-    let others = 1.0 - 1.0 / variances.len() as f64;
-    ocean
-        .modes()
-        .iter()
-        .zip(&variances)
-        .map(|(modes, variance)| OceanCascade {
-            wave_step: modes.step() as f32,
-            foam_spread: spread(total - variance) as f32,
-            foam_share: (mean * others) as f32,
-            pad: 0.0,
+/// Sum over the modes of two sets of `k^2` times the product of their amplitudes.
+fn product(a: &CascadeModes, b: &CascadeModes) -> f64 {
+    let size = a.size as usize;
+    let cells = a.amp.iter().zip(&a.n).zip(b.amp.iter().zip(&b.n)).enumerate();
+    // Waves of different frequency do not know each other.
+    let sum: f64 = cells
+        .filter(|(_, ((_, n), (_, m)))| n == m)
+        .map(|(cell, ((p, _), (q, _)))| {
+            let [i, j] = [cell % size, cell / size].map(|x| f64::from(a.signed(x as u32)));
+            (i * i + j * j) * (f64::from(p[0]) * f64::from(q[0]) + f64::from(p[1]) * f64::from(q[1]))
         })
-        .collect()
+        .sum();
+    2.0 * a.step().powi(2) * sum
+}
+
+impl Divergence {
+    /// Takes over the mode sets of a time, if they are others.
+    pub(super) fn set(&mut self, ocean: &Ocean, t: f64) {
+        let sets = ocean.moment_at(t).sets;
+        if sets == self.sets {
+            return;
+        }
+        self.sets = sets;
+        let (first, second) = ocean.mode_sets_at(t);
+        let one = first.iter().map(|modes| product(modes, modes));
+        self.terms = match second {
+            None => one.map(|one| [one, 0.0, 0.0]).collect(),
+            Some(second) => {
+                let pairs = first.iter().zip(second);
+                one.zip(pairs).map(|(one, (a, b))| [one, product(b, b), product(a, b)]).collect()
+            }
+        };
+    }
+
+    /// What the shader knows of each cascade: spread and share.
+    pub(super) fn cascades(&self, moment: &Moment) -> Vec<(f32, f32)> {
+        let [a, b] = moment.weight.map(f64::from);
+        let chop = f64::from(moment.choppiness);
+        let variance =
+            |[one, two, mixed]: &[f64; 3]| chop * chop * (a * a * one + b * b * two + 2.0 * a * b * mixed).max(0.0);
+        let total: f64 = self.terms.iter().map(variance).sum();
+        let spread = |variance: f64| (variance.max(0.0) + SOFTNESS * SOFTNESS).sqrt();
+        // Logistic in place of the normal distribution, as in the shader.
+        let mean = 1.0 / (1.0 + libm::exp(1.702 * (1.0 - f64::from(FOAM_THRESHOLD)) / spread(total)));
+        let others = 1.0 - 1.0 / self.terms.len().max(1) as f64;
+        let cascade = |terms| (spread(total - variance(terms)) as f32, (mean * others) as f32);
+        self.terms.iter().map(cascade).collect()
+    }
 }

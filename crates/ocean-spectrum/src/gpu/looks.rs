@@ -3,6 +3,7 @@
 use open_water_shaders::ocean::{LOOKS, MIPS, OceanParams};
 use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_layout};
 
+use super::GpuPass;
 use super::upload::{self, Shape};
 
 /// Levels that `ocean_looks` writes.
@@ -88,14 +89,25 @@ impl Looks {
         }
     }
 
-    pub(super) fn dispatches(&self) -> u32 {
-        1 + self.mips.len() as u32
+    pub(super) fn passes(&self, shape: Shape) -> Vec<GpuPass> {
+        let level = |side: u32| 8 * u64::from(shape.layers()) * u64::from(side).pow(2);
+        let pass = |name, bytes| GpuPass { name, cascades: 0..shape.count, bytes };
+        // Both kinds of fields (the derivative twice, for the foam too), and the foam before and after.
+        let read = 3 * level(shape.size) + level(shape.size) / 2;
+        let written = (0..FIRST_LEVELS).map(|l| level(shape.size >> l)).sum::<u64>();
+        let mips = self.mips.iter().map(|mips| {
+            let levels = if mips.side >= 8 { 0..=MORE_LEVELS } else { 0..=1 };
+            pass(MIPS.name, levels.map(|l| level(mips.side >> l)).sum())
+        });
+        std::iter::once(pass(LOOKS.name, read + written)).chain(mips).collect()
     }
 
-    pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>, shape: Shape) {
+    /// Records one dispatch, or all.
+    pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>, shape: Shape, only: Option<usize>) {
         let (pipeline, group) = &self.first;
         let stages = self.mips.iter().map(|mips| (&mips.pipeline, &mips.group, mips.side));
-        for (pipeline, group, side) in std::iter::once((pipeline, group, shape.size)).chain(stages) {
+        let all = std::iter::once((pipeline, group, shape.size)).chain(stages).enumerate();
+        for (_, (pipeline, group, side)) in all.filter(|(i, _)| only.is_none_or(|only| *i == only)) {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, group, &[]);
             let blocks = side.div_ceil(BLOCK);

@@ -2,18 +2,32 @@
 //!
 //! [`GpuOcean`] records compute work into the host's encoder; it never submits, polls or blocks. It answers no queries:
 //! those are the CPU's, from [`crate::Ocean`].
+//!
+//! All cascades are synthesised at the size of the largest: a cascade's modes do not depend on its size, so the surface
+//! is the same, drawn finer. A change of the sea needs no word: the mode sets in use are uploaded when they change, and
+//! mixed in the first stage. A cascade's `interval` is not used here: every time is exact.
+//!
+//! # How a synthesis runs
+//! Two packed spectra share a texel, two texels hold a cascade's eight fields. Transforms run along x, then along z; rows
+//! that hold no modes are not transformed along x, nor read along z. A cascade with a neighbour that takes its short
+//! waves holds modes in some 81 rows, whatever its size. See [`FftKernel`] for the two ways to run the transforms, and
+//! [`GpuOcean::field_passes`] for what each dispatch moves.
 
 mod error;
 mod foam;
 mod looks;
 mod modes;
+mod stages;
 mod synthesis;
 mod upload;
 
-use open_water_shaders::ocean::OceanParams;
+use std::ops::Range;
+
+use open_water_shaders::ocean::{MAX_CASCADES, OceanCascade, OceanParams};
 
 use crate::Ocean;
 pub use error::GpuError;
+use foam::Divergence;
 pub use foam::{FOAM_SECONDS, FOAM_THRESHOLD};
 use looks::Looks;
 pub use synthesis::FftKernel;
@@ -28,17 +42,28 @@ use upload::Shape;
 #[derive(Debug)]
 pub struct GpuOcean {
     shape: Shape,
-    params: OceanParams,
     params_buffer: wgpu::Buffer,
+    divergence: Divergence,
     synthesis: Synthesis,
     looks: Looks,
 }
 
+/// A dispatch, for who wants to measure.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GpuPass {
+    /// Name of its shader.
+    pub name: &'static str,
+    /// The cascades it works on.
+    pub cascades: Range<u32>,
+    /// Bytes of textures and buffers that it reads and writes, each once.
+    pub bytes: u64,
+}
+
 impl GpuOcean {
-    /// Makes textures and pipelines, and takes over the modes.
+    /// Makes textures and pipelines. The modes are uploaded by the first [`Self::set_time`].
     ///
     /// # Errors
-    /// [`GpuError::InvalidValue`] if the cascades differ in size, or need more than the device's limits allow.
+    /// [`GpuError::InvalidValue`] if the cascades need more than the device's limits allow.
     pub fn new(device: &wgpu::Device, ocean: &Ocean) -> Result<Self, GpuError> {
         Self::with_kernel(device, ocean, FftKernel::of(device))
     }
@@ -48,71 +73,115 @@ impl GpuOcean {
     /// # Errors
     /// As [`Self::new`].
     pub fn with_kernel(device: &wgpu::Device, ocean: &Ocean, kernel: FftKernel) -> Result<Self, GpuError> {
-        let shape = Shape::of(ocean)?;
+        let shape = Shape::of(ocean);
         shape.check(&device.limits())?;
-        let params = upload::params(ocean);
-        let params_buffer =
-            upload::buffer(device, "ocean params", bytemuck::bytes_of(&params), wgpu::BufferUsages::UNIFORM);
+        let params_buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("ocean params"),
+            size: size_of::<OceanParams>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
         let synthesis = Synthesis::new(device, kernel, shape, ocean, &params_buffer);
         let looks = Looks::new(device, shape, &params_buffer, &synthesis.fields);
-        Ok(Self { shape, params, params_buffer, synthesis, looks })
+        Ok(Self { shape, params_buffer, divergence: Divergence::default(), synthesis, looks })
     }
 
-    /// Takes over a changed sea with as many cascades of the same size. Foam stays.
+    /// Whether another sea can be drawn by this: one with as many cascades, the largest of the same size.
     ///
     /// # Errors
-    /// [`GpuError::InvalidValue`] if number or size of the cascades changed: make a new one then.
-    pub fn reload(&mut self, ocean: &Ocean) -> Result<(), GpuError> {
-        self.shape.check_same(Shape::of(ocean)?)?;
-        self.params = upload::params(ocean);
-        self.synthesis.modes.set(ocean);
-        Ok(())
+    /// [`GpuError::InvalidValue`] if it cannot: make a new one then.
+    pub fn check(&self, ocean: &Ocean) -> Result<(), GpuError> {
+        self.shape.check_same(Shape::of(ocean))
     }
 
-    /// Sets the time for the work that is encoded next: `phase` from [`Ocean::phase_at`], and the seconds since the
-    /// last looks, by which foam fades (not finite or negative: 0). A changed sea is uploaded here. It holds for everything up to the next submit.
-    pub fn set_time(&mut self, queue: &wgpu::Queue, phase: u32, foam_dt: f32) {
-        self.synthesis.modes.flush(queue);
-        self.params.phase = phase;
-        self.params.foam_decay = foam::decay(foam_dt);
-        queue.write_buffer(&self.params_buffer, 0, bytemuck::bytes_of(&self.params));
+    /// Sets the time for the work that is encoded next: `t` in seconds, and the seconds since the last looks, by which
+    /// foam fades (not finite or negative: 0). Mode sets that changed are uploaded, also those of another sea; foam
+    /// stays. A sea that does not pass [`Self::check`] is ignored. It holds for everything up to the next submit.
+    pub fn set_time(&mut self, queue: &wgpu::Queue, ocean: &Ocean, t: f64, foam_dt: f32) {
+        if self.check(ocean).is_err() {
+            return;
+        }
+        self.synthesis.set(queue, ocean, t);
+        self.divergence.set(ocean, t);
+        let moment = ocean.moment_at(t);
+        let mut params = OceanParams {
+            phase: moment.phase,
+            weight: moment.weight,
+            cascade_count: self.shape.count,
+            choppiness: moment.choppiness,
+            foam_threshold: FOAM_THRESHOLD,
+            foam_decay: foam::decay(foam_dt),
+            cascades: [OceanCascade::default(); MAX_CASCADES],
+        };
+        let known = ocean.modes().iter().zip(self.divergence.cascades(&moment)).zip(&self.synthesis.halves);
+        for (cascade, ((modes, (foam_spread, foam_share)), &half)) in params.cascades.iter_mut().zip(known) {
+            *cascade = OceanCascade { wave_step: modes.step() as f32, foam_spread, foam_share, half };
+        }
+        queue.write_buffer(&self.params_buffer, 0, bytemuck::bytes_of(&params));
     }
 
-    /// Records the synthesis of the fields: [`Self::field_dispatches`] dispatches.
+    /// Records the synthesis of the fields.
     pub fn record_fields(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.synthesis.record(pass, self.shape);
+        self.synthesis.record(pass, None);
     }
 
-    /// Records the looks of the fields synthesised before: [`Self::look_dispatches`] dispatches.
+    /// Records the looks of the fields synthesised before.
     pub fn record_looks(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.looks.record(pass, self.shape);
+        self.looks.record(pass, self.shape, None);
     }
 
-    /// Fields and looks at `phase`, in one compute pass.
-    pub fn encode(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, phase: u32, foam_dt: f32) {
-        self.set_time(queue, phase, foam_dt);
+    /// Fields and looks at time `t` in one compute pass; see [`Self::set_time`].
+    pub fn encode(
+        &mut self,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        ocean: &Ocean,
+        t: f64,
+        foam_dt: f32,
+    ) {
+        self.set_time(queue, ocean, t, foam_dt);
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("ocean"), timestamp_writes: None });
         self.record_fields(&mut pass);
         self.record_looks(&mut pass);
     }
 
-    /// Fields alone at `phase`, in one compute pass: for when nothing looks at foam or filtered fields.
-    pub fn encode_fields(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, phase: u32) {
-        self.set_time(queue, phase, 0.0);
+    /// Fields alone at time `t` in one compute pass: for when nothing looks at foam or filtered fields.
+    pub fn encode_fields(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, ocean: &Ocean, t: f64) {
+        self.set_time(queue, ocean, t, 0.0);
         let mut pass = encoder
             .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("ocean fields"), timestamp_writes: None });
         self.record_fields(&mut pass);
     }
 
-    /// Dispatches of [`Self::record_fields`].
-    pub fn field_dispatches(&self) -> u32 {
-        self.synthesis.dispatches()
+    /// The dispatches of [`Self::record_fields`], in order.
+    pub fn field_passes(&self) -> Vec<GpuPass> {
+        self.synthesis.passes().cloned().collect()
     }
 
-    /// Dispatches of [`Self::record_looks`].
+    /// The dispatches of [`Self::record_looks`], in order.
+    pub fn look_passes(&self) -> Vec<GpuPass> {
+        self.looks.passes(self.shape)
+    }
+
+    /// Records dispatch `index` of [`Self::field_passes`] alone, or, from their number on, of [`Self::look_passes`]: to
+    /// time each.
+    pub fn record_one(&self, pass: &mut wgpu::ComputePass<'_>, index: usize) {
+        let fields = self.synthesis.passes().count();
+        match index.checked_sub(fields) {
+            None => self.synthesis.record(pass, Some(index)),
+            Some(index) => self.looks.record(pass, self.shape, Some(index)),
+        }
+    }
+
+    /// Number of dispatches of [`Self::record_fields`].
+    pub fn field_dispatches(&self) -> u32 {
+        self.synthesis.passes().count() as u32
+    }
+
+    /// Number of dispatches of [`Self::record_looks`].
     pub fn look_dispatches(&self) -> u32 {
-        self.looks.dispatches()
+        self.looks.passes(self.shape).len() as u32
     }
 
     /// Number of cascades.
@@ -120,7 +189,7 @@ impl GpuOcean {
         self.shape.count
     }
 
-    /// Texels per side of every cascade.
+    /// Texels per side of every cascade's layers: the size of the largest.
     pub fn size(&self) -> u32 {
         self.shape.size
     }

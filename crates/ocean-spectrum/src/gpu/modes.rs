@@ -1,28 +1,24 @@
 //! The modes as textures: a read from a texture is fast on every adapter.
 
-use bytemuck::cast_slice;
+use bytemuck::{Pod, cast_slice};
 
-use super::upload::Shape;
-use crate::Ocean;
+use super::upload::{self, Shape};
+use crate::{CascadeModes, Ocean};
 
-#[derive(Debug)]
-struct Pending {
-    amplitudes: Vec<[f32; 4]>,
-    turns: Vec<u32>,
-}
-
-/// Amplitudes and turns, a layer per cascade.
+/// Amplitudes and turns, a layer per cascade; while two mode sets are mixed, as many again for the second.
 #[derive(Debug)]
 pub(super) struct ModeTextures {
+    shape: Shape,
     amplitudes: wgpu::Texture,
     turns: wgpu::Texture,
-    pending: Option<Pending>,
+    /// [`crate::Moment::sets`] of what they hold; 0 for nothing yet.
+    held: [u64; 2],
 }
 
-fn texture(device: &wgpu::Device, label: &str, shape: Shape, format: wgpu::TextureFormat) -> wgpu::Texture {
+fn texture(device: &wgpu::Device, label: &str, size: wgpu::Extent3d, format: wgpu::TextureFormat) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: shape.extent(shape.count),
+        size,
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -32,44 +28,66 @@ fn texture(device: &wgpu::Device, label: &str, shape: Shape, format: wgpu::Textu
     })
 }
 
-fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, texels: &[u8]) {
-    let size = texture.size();
-    let layout = wgpu::TexelCopyBufferLayout {
+/// Writes layers from `base` on.
+fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, base: u32, layers: u32, texels: &[u8]) {
+    let size = wgpu::Extent3d { depth_or_array_layers: layers, ..texture.size() };
+    let rows = wgpu::TexelCopyBufferLayout {
         offset: 0,
-        bytes_per_row: Some(texels.len() as u32 / (size.height * size.depth_or_array_layers)),
+        bytes_per_row: Some(texels.len() as u32 / (size.height * layers)),
         rows_per_image: Some(size.height),
     };
-    queue.write_texture(texture.as_image_copy(), texels, layout, size);
+    let origin = wgpu::Origin3d { z: base, ..wgpu::Origin3d::ZERO };
+    queue.write_texture(wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() }, texels, rows, size);
+}
+
+/// Cells of all cascades in arrays of `size`: modes do not depend on the array that holds them.
+fn padded<T: Pod>(set: &[CascadeModes], size: u32, cells: impl Fn(&CascadeModes) -> &[T]) -> Vec<T> {
+    let side = size as usize;
+    let mut all = vec![T::zeroed(); set.len() * side * side];
+    for (layer, modes) in all.chunks_exact_mut(side * side).zip(set) {
+        let own = modes.size as usize;
+        let place = |index: usize| if index < own / 2 { index } else { index + side - own };
+        for (row, cells) in cells(modes).chunks_exact(own).enumerate() {
+            let (low, high) = cells.split_at(own / 2);
+            let line = &mut layer[place(row) * side..][..side];
+            line[..own / 2].copy_from_slice(low);
+            line[side - own / 2..].copy_from_slice(high);
+        }
+    }
+    all
 }
 
 impl ModeTextures {
-    pub(super) fn new(device: &wgpu::Device, shape: Shape, ocean: &Ocean) -> Self {
-        let mut textures = Self {
-            amplitudes: texture(device, "ocean amplitudes", shape, wgpu::TextureFormat::Rgba32Float),
-            turns: texture(device, "ocean turns", shape, wgpu::TextureFormat::R32Uint),
-            pending: None,
-        };
-        textures.set(ocean);
-        textures
+    pub(super) fn new(device: &wgpu::Device, shape: Shape, mixed: bool) -> Self {
+        let size = shape.extent(shape.count * if mixed { 2 } else { 1 });
+        Self {
+            shape,
+            amplitudes: texture(device, "ocean amplitudes", size, wgpu::TextureFormat::Rgba32Float),
+            turns: texture(device, "ocean turns", size, wgpu::TextureFormat::R32Uint),
+            held: [0; 2],
+        }
     }
 
-    /// Takes over the modes, to be uploaded by the next [`Self::flush`].
-    pub(super) fn set(&mut self, ocean: &Ocean) {
-        self.pending = Some(Pending {
-            amplitudes: ocean.modes().iter().flat_map(|modes| modes.amp.iter().copied()).collect(),
-            turns: ocean.modes().iter().flat_map(|modes| modes.n.iter().copied()).collect(),
-        });
+    /// Whether there is room for a second set.
+    pub(super) fn is_mixed(&self) -> bool {
+        self.amplitudes.depth_or_array_layers() > self.shape.count
     }
 
-    pub(super) fn flush(&mut self, queue: &wgpu::Queue) {
-        if let Some(Pending { amplitudes, turns }) = self.pending.take() {
-            write(queue, &self.amplitudes, cast_slice(&amplitudes));
-            write(queue, &self.turns, cast_slice(&turns));
+    /// Uploads the mode sets of a time, as far as they are not held.
+    pub(super) fn set(&mut self, queue: &wgpu::Queue, ocean: &Ocean, t: f64) {
+        let sets = ocean.moment_at(t).sets;
+        let (first, second) = ocean.mode_sets_at(t);
+        for (slot, set) in [Some(first), second].into_iter().enumerate() {
+            let Some(set) = set.filter(|_| self.held[slot] != sets[slot]) else { continue };
+            let (base, count, size) = (slot as u32 * self.shape.count, self.shape.count, self.shape.size);
+            write(queue, &self.amplitudes, base, count, cast_slice(&padded(set, size, |modes| &modes.amp)));
+            write(queue, &self.turns, base, count, cast_slice(&padded(set, size, |modes| &modes.n)));
+            self.held[slot] = sets[slot];
         }
     }
 
     /// Views of the amplitudes and of the turns.
     pub(super) fn views(&self) -> [wgpu::TextureView; 2] {
-        [super::upload::level(&self.amplitudes, 0), super::upload::level(&self.turns, 0)]
+        [upload::level(&self.amplitudes, 0), upload::level(&self.turns, 0)]
     }
 }

@@ -1,20 +1,22 @@
 //! Modes to fields: one dispatch per stage, each from one texture to the next.
 
-use open_water_shaders::Pass;
-use open_water_shaders::ocean::{COLUMNS, FFT_BLOCK, FFT_POINTS, FFT_THREADS, FIRST, OceanParams, ROWS, STAGE};
+use open_water_shaders::ocean::OceanParams;
 use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_layout};
 
+use super::GpuPass;
 use super::modes::ModeTextures;
+use super::stages::{self, Class, Step, classes, steps};
 use super::upload::{self, Shape};
 use crate::Ocean;
 
 /// How the transforms run. The results are the same to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FftKernel {
-    /// Whole lines in workgroup memory: 2 dispatches. For GPUs.
+    /// Whole lines in workgroup memory: 2 dispatches for all cascades. For GPUs.
     Lines,
-    /// A dispatch per stage from texture to texture, without workgroup memory: 4 dispatches, 6 above 256 texels. For
-    /// adapters that run on the CPU, where reads from buffers and workgroup memory are slow.
+    /// A dispatch per stage from texture to texture, without workgroup memory: 2 for each direction (1 up to 32 texels);
+    /// cascades that are filled differently do not share them. For adapters that run on the CPU, where reads from
+    /// buffers and workgroup memory are slow, and a branch does not spare work.
     Stages,
 }
 
@@ -32,37 +34,32 @@ impl FftKernel {
 struct Dispatch {
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,
-    workgroups: u32,
+    workgroups: [u32; 2],
+    info: GpuPass,
 }
 
 #[derive(Debug)]
 pub(super) struct Synthesis {
-    pub(super) modes: ModeTextures,
-    dispatches: Vec<Dispatch>,
+    device: wgpu::Device,
+    kernel: FftKernel,
+    shape: Shape,
+    params: wgpu::Buffer,
+    /// See [`stages::half`], by cascade.
+    pub(super) halves: Vec<u32>,
+    modes: ModeTextures,
+    /// The first stage of each class while one mode set is in use, and, once it was needed, while two are mixed.
+    first: [Vec<Dispatch>; 2],
+    /// The other stages, each of all classes before the next.
+    rest: Vec<Dispatch>,
+    is_mixed: bool,
+    half_done: wgpu::Texture,
     pub(super) fields: wgpu::Texture,
     pub(super) displacement: wgpu::TextureView,
     pub(super) derivative: wgpu::TextureView,
 }
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
-
-/// A pass after the first, with its own constants.
-type Next = (&'static Pass, Vec<(&'static str, f64)>);
-
-/// The first pass, those after it in order, and the workgroups of each for one layer.
-fn plan(kernel: FftKernel, size: u32) -> (&'static Pass, Vec<Next>, u32) {
-    match kernel {
-        FftKernel::Lines => (&ROWS, vec![(&COLUMNS, vec![])], size.div_ceil(FFT_BLOCK / size)),
-        FftKernel::Stages => {
-            let done = || (0..).map(|stage| FFT_POINTS.pow(stage)).take_while(|&done| done < size);
-            let stage = |done: u32, x: bool| (&STAGE, vec![("DONE", done.into()), ("ALONG_X", f64::from(u8::from(x)))]);
-            let along_x = done().skip(1).map(|done| stage(done, true));
-            let along_z = done().map(|done| stage(done, false));
-            let threads = size * size / FFT_POINTS;
-            (&FIRST, along_x.chain(along_z).collect(), threads.div_ceil(FFT_THREADS))
-        }
-    }
-}
+const READ: Slot = Slot::TextureArray { filterable: false };
 
 impl Synthesis {
     pub(super) fn new(
@@ -72,53 +69,122 @@ impl Synthesis {
         ocean: &Ocean,
         params: &wgpu::Buffer,
     ) -> Self {
-        let modes = ModeTextures::new(device, shape, ocean);
         let (fields, [displacement, derivative]) = upload::texture(device, "ocean fields", shape, FORMAT, 1);
         let (half_done, _) = upload::texture(device, "ocean half done", shape, FORMAT, 1);
-        // The textures take turns so that the last stage writes the fields.
-        let pair = [upload::level(&fields, 0), upload::level(&half_done, 0)];
-        let [amplitudes, turns] = modes.views();
-
-        let compute = wgpu::ShaderStages::COMPUTE;
-        let uniform = Slot::Uniform { size: size_of::<OceanParams>() };
-        let read = Slot::TextureArray { filterable: false };
-        let write = Slot::WriteTextureArray { format: FORMAT };
-        let (first, rest, workgroups) = plan(kernel, shape.size);
-        let dispatch = |pass: &Pass, constants: &[(&str, f64)], inputs: &[(Slot, &wgpu::TextureView)], after: usize| {
-            let mut slots = vec![uniform];
-            let mut resources = vec![params.as_entire_binding()];
-            for (slot, input) in inputs {
-                slots.push(*slot);
-                resources.push(wgpu::BindingResource::TextureView(input));
-            }
-            slots.push(write);
-            resources.push(wgpu::BindingResource::TextureView(&pair[after % 2]));
-            let layout = group_layout(device, pass.name, compute, &slots);
-            let constants = [&[("N", f64::from(shape.size))], constants].concat();
-            Dispatch {
-                pipeline: compute_pipeline(device, pass, pass.entry_points[0], &[&layout], &constants),
-                group: bind_group(device, pass.name, &layout, &resources),
-                workgroups,
-            }
+        let mut synthesis = Self {
+            device: device.clone(),
+            kernel,
+            shape,
+            params: params.clone(),
+            halves: ocean.modes().iter().map(stages::half).collect(),
+            modes: ModeTextures::new(device, shape, false),
+            first: [const { Vec::new() }; 2],
+            rest: Vec::new(),
+            is_mixed: false,
+            half_done,
+            fields,
+            displacement,
+            derivative,
         };
-        let inputs = [(read, &amplitudes), (Slot::UintTextureArray, &turns)];
-        let mut dispatches = vec![dispatch(first, &[], &inputs, rest.len())];
-        // `after` dispatches come after this one.
-        for (after, (pass, constants)) in (0..rest.len()).rev().zip(&rest) {
-            dispatches.push(dispatch(pass, constants, &[(read, &pair[(after + 1) % 2])], after));
+        synthesis.make_stages();
+        synthesis
+    }
+
+    /// Takes over the mode sets of a time. What two of them need is made when it is needed first.
+    pub(super) fn set(&mut self, queue: &wgpu::Queue, ocean: &Ocean, t: f64) {
+        let (first, second) = ocean.mode_sets_at(t);
+        if !first.iter().map(stages::half).eq(self.halves.iter().copied()) {
+            self.halves = first.iter().map(stages::half).collect();
+            self.make_stages();
         }
-        Self { modes, dispatches, fields, displacement, derivative }
+        self.is_mixed = second.is_some();
+        if self.is_mixed && !self.modes.is_mixed() {
+            self.modes = ModeTextures::new(&self.device, self.shape, true);
+            self.first[0] = self.first_stages(false);
+        }
+        if self.is_mixed && self.first[1].is_empty() {
+            self.first[1] = self.first_stages(true);
+        }
+        self.modes.set(queue, ocean, t);
     }
 
-    pub(super) fn dispatches(&self) -> u32 {
-        self.dispatches.len() as u32
+    fn make_stages(&mut self) {
+        self.first = [self.first_stages(false), Vec::new()];
+        let classes = self.classes();
+        let steps: Vec<Vec<Step>> = classes.iter().map(|class| steps(self.kernel, self.shape, class, false)).collect();
+        let count = steps[0].len();
+        let pair = self.pair();
+        self.rest = (1..count)
+            .flat_map(|stage| steps.iter().zip(&classes).map(move |(steps, class)| (stage, &steps[stage], class)))
+            .map(|(stage, step, class)| {
+                // The textures take turns so that the last stage writes the fields.
+                let after = count - 1 - stage;
+                self.dispatch(step, class, &[(READ, &pair[(after + 1) % 2])], &pair[after % 2])
+            })
+            .collect();
     }
 
-    pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>, shape: Shape) {
-        for Dispatch { pipeline, group, workgroups } in &self.dispatches {
+    fn first_stages(&self, mixed: bool) -> Vec<Dispatch> {
+        let [amplitudes, turns] = self.modes.views();
+        let inputs = [(READ, &amplitudes), (Slot::UintTextureArray, &turns)];
+        let pair = self.pair();
+        self.classes()
+            .iter()
+            .map(|class| {
+                let steps = steps(self.kernel, self.shape, class, mixed);
+                self.dispatch(&steps[0], class, &inputs, &pair[(steps.len() - 1) % 2])
+            })
+            .collect()
+    }
+
+    fn classes(&self) -> Vec<Class> {
+        classes(self.kernel, self.shape.size, &self.halves)
+    }
+
+    fn pair(&self) -> [wgpu::TextureView; 2] {
+        [&self.fields, &self.half_done].map(|texture| upload::level(texture, 0))
+    }
+
+    fn dispatch(
+        &self,
+        step: &Step,
+        class: &Class,
+        inputs: &[(Slot, &wgpu::TextureView)],
+        output: &wgpu::TextureView,
+    ) -> Dispatch {
+        let Step { pass, constants, workgroups, bytes } = step;
+        let mut slots = vec![Slot::Uniform { size: size_of::<OceanParams>() }];
+        let mut resources = vec![self.params.as_entire_binding()];
+        for (slot, input) in inputs {
+            slots.push(*slot);
+            resources.push(wgpu::BindingResource::TextureView(input));
+        }
+        slots.push(Slot::WriteTextureArray { format: FORMAT });
+        resources.push(wgpu::BindingResource::TextureView(output));
+        let layout = group_layout(&self.device, pass.name, wgpu::ShaderStages::COMPUTE, &slots);
+        Dispatch {
+            pipeline: compute_pipeline(&self.device, pass, pass.entry_points[0], &[&layout], constants),
+            group: bind_group(&self.device, pass.name, &layout, &resources),
+            workgroups: *workgroups,
+            info: GpuPass { name: pass.name, cascades: class.cascades.clone(), bytes: *bytes },
+        }
+    }
+
+    fn dispatches(&self) -> impl Iterator<Item = &Dispatch> {
+        self.first[usize::from(self.is_mixed)].iter().chain(&self.rest)
+    }
+
+    pub(super) fn passes(&self) -> impl Iterator<Item = &GpuPass> {
+        self.dispatches().map(|dispatch| &dispatch.info)
+    }
+
+    /// Records one dispatch, or all.
+    pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>, only: Option<usize>) {
+        let chosen = self.dispatches().enumerate().filter(|(i, _)| only.is_none_or(|only| *i == only));
+        for (_, Dispatch { pipeline, group, workgroups: [x, z], .. }) in chosen {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, group, &[]);
-            pass.dispatch_workgroups(*workgroups, 1, shape.layers());
+            pass.dispatch_workgroups(*x, 1, *z);
         }
     }
 }

@@ -1,9 +1,8 @@
 //! Shape, parameters and buffers of a sea on the GPU.
 
-use open_water_shaders::ocean::{FFT_BLOCK, FFT_THREADS, OceanParams};
+use open_water_shaders::ocean::{FFT_BLOCK, FFT_THREADS, MIN_SIZE};
 
 use super::error::{GpuError, at_most, equal};
-use super::foam;
 use crate::Ocean;
 
 /// Cascades and their size, from which every array's size follows.
@@ -14,12 +13,10 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    pub(super) fn of(ocean: &Ocean) -> Result<Self, GpuError> {
-        let size = ocean.modes()[0].size;
-        for modes in ocean.modes() {
-            equal("size of a cascade", modes.size, size)?;
-        }
-        Ok(Self { count: ocean.modes().len() as u32, size })
+    pub(super) fn of(ocean: &Ocean) -> Self {
+        // The modes of a cascade do not depend on its size: all are synthesised at the largest.
+        let size = ocean.modes().iter().map(|modes| modes.size).max().unwrap_or(MIN_SIZE);
+        Self { count: ocean.modes().len() as u32, size }
     }
 
     /// Layers of displacement and derivative together.
@@ -48,33 +45,8 @@ impl Shape {
 
     pub(super) fn check_same(self, other: Self) -> Result<(), GpuError> {
         equal("number of cascades", other.count, self.count)?;
-        equal("size of a cascade", other.size, self.size)
+        equal("size of the largest cascade", other.size, self.size)
     }
-}
-
-pub(super) fn params(ocean: &Ocean) -> OceanParams {
-    let mut params = OceanParams {
-        phase: ocean.phase(),
-        cascade_count: ocean.modes().len() as u32,
-        choppiness: ocean.desc().choppiness,
-        foam_threshold: foam::FOAM_THRESHOLD,
-        foam_decay: 1.0,
-        ..OceanParams::default()
-    };
-    for (to, from) in params.cascades.iter_mut().zip(foam::cascades(ocean)) {
-        *to = from;
-    }
-    params
-}
-
-/// A buffer that holds `bytes`.
-pub(super) fn buffer(device: &wgpu::Device, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
-    use wgpu::util::DeviceExt;
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: Some(label),
-        contents: bytes,
-        usage: usage | wgpu::BufferUsages::COPY_DST,
-    })
 }
 
 /// A texture array of both kinds of layers, and the views of each kind.

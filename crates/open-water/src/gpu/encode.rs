@@ -1,6 +1,7 @@
 //! Turns a [`FramePlan`] into uploads and dispatches: the only place that does.
 
 use ocean_spectrum::Ocean;
+use ocean_spectrum::gpu::GpuOcean;
 
 use super::Gpu;
 use crate::grids::{Grids, Sim};
@@ -20,7 +21,8 @@ impl Gpu {
                 Work::Table => {
                     self.shown.listed = grids.iter().filter(|grid| grid.is_awake()).count();
                     self.shown.shore = plan.shore;
-                    self.surface.write_table(&self.queue, plan.time, ocean, grids.iter(), plan.shore.level);
+                    let size = self.ocean.as_ref().map_or(1, GpuOcean::size);
+                    self.surface.write_table(&self.queue, plan.time, ocean, grids.iter(), plan.shore.level, size);
                 }
                 Work::GridUpload { grid, .. } => {
                     if let Some(grid) = grids.get_mut(grid) {
@@ -59,12 +61,11 @@ impl Gpu {
         encoder: &mut wgpu::CommandEncoder,
     ) {
         let (Some(gpu), Some(ocean)) = (&mut self.ocean, ocean) else { return };
-        let phase = ocean.phase_at(plan.time);
         if looks {
-            gpu.encode(&self.queue, encoder, phase, (plan.time - self.looks_time).abs() as f32);
+            gpu.encode(&self.queue, encoder, ocean, plan.time, (plan.time - self.looks_time).abs() as f32);
             self.looks_time = plan.time;
         } else {
-            gpu.encode_fields(&self.queue, encoder, phase);
+            gpu.encode_fields(&self.queue, encoder, ocean, plan.time);
         }
     }
 

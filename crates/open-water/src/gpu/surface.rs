@@ -110,6 +110,7 @@ impl SurfaceBinding {
         &self.pool
     }
 
+    /// `size` is that of the cascades' layers, texels per side.
     pub(crate) fn write_table<'a>(
         &self,
         queue: &wgpu::Queue,
@@ -117,6 +118,7 @@ impl SurfaceBinding {
         ocean: Option<&Ocean>,
         grids: impl Iterator<Item = &'a Grid>,
         level: f32,
+        size: u32,
     ) {
         let mut table = SurfaceTable { time: (time % LOOKS_TIME) as f32, ..Default::default() };
         if let Some(ocean) = ocean {
@@ -125,9 +127,8 @@ impl SurfaceBinding {
                 *slope = ocean.hidden_slope((i as f32 - HIDDEN_SLOPE_BIAS as f32).exp2());
             }
             for (c, modes) in ocean.modes().iter().enumerate() {
-                let cascade =
-                    SurfaceCascade { offset: ocean.offset(c).into(), tile: modes.tile, size: modes.size as f32 };
-                table.cascades[c] = cascade;
+                table.cascades[c] =
+                    SurfaceCascade { offset: ocean.offset(c).into(), tile: modes.tile, size: size as f32 };
                 table.cascade_count += 1;
             }
         }
