@@ -14,12 +14,11 @@ pub const MAX_CASCADES: usize = 8;
 pub const MAX_GRIDS: usize = 32;
 /// See [`SurfaceTable::hidden_slope`].
 pub const HIDDEN_SLOPE_BIAS: u32 = 6;
-/// Rounds of `rest <- point - D(rest)` that invert the horizontal displacement D.
-pub const CHOP_FIXED_ROUNDS: u32 = 2;
-/// Rounds of Newton's method after them.
-pub const CHOP_NEWTON_ROUNDS: u32 = 6;
-/// A residual of the inversion that is good enough, metres.
-pub const CHOP_TOLERANCE: f32 = 2e-4;
+/// Most rounds of Newton's method that invert the horizontal displacement, after two rough ones of
+/// `rest <- point - D(rest)`.
+pub const CHOP_ROUNDS: u32 = 8;
+/// A step of Newton's method that need not be checked, metres: its error is some hundredth of it.
+pub const CHOP_LAST_STEP: f32 = 5e-3;
 /// Compression of the surface below which a Newton step gets no longer: near a fold it would be arbitrarily long.
 pub const CHOP_LEAST_STEP: f32 = 0.1;
 /// Compression of the surface below which slopes get no steeper.
@@ -120,8 +119,8 @@ pub const PARAMS: &[crate::ParamLayout] = &[
 /// Constants that WGSL shares, and the group index of the composite bind group.
 pub fn constants(group: u32) -> String {
     format!(
-        "override SURFACE_LAND: bool = true;\nconst MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst CHOP_FIXED_ROUNDS: u32 = {CHOP_FIXED_ROUNDS}u;\nconst CHOP_NEWTON_ROUNDS: u32 = {CHOP_NEWTON_ROUNDS}u;\n\
-         const CHOP_TOLERANCE: f32 = {CHOP_TOLERANCE};\nconst CHOP_LEAST_STEP: f32 = {CHOP_LEAST_STEP};\nconst CHOP_LEAST_SLOPE: f32 = {CHOP_LEAST_SLOPE};\nconst HIDDEN_SLOPE_BIAS: f32 = {HIDDEN_SLOPE_BIAS}.0;\n\
+        "override SURFACE_LAND: bool = true;\nconst MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst CHOP_ROUNDS: u32 = {CHOP_ROUNDS}u;\n\
+         const CHOP_LAST_STEP: f32 = {CHOP_LAST_STEP};\nconst CHOP_LEAST_STEP: f32 = {CHOP_LEAST_STEP};\nconst CHOP_LEAST_SLOPE: f32 = {CHOP_LEAST_SLOPE};\nconst HIDDEN_SLOPE_BIAS: f32 = {HIDDEN_SLOPE_BIAS}.0;\n\
          @group({group}) @binding(0) var<uniform> surface_table: SurfaceTable;\n\
          @group({group}) @binding(1) var surface_displacement: texture_2d_array<f32>;\n\
          @group({group}) @binding(2) var surface_derivative: texture_2d_array<f32>;\n\
@@ -165,6 +164,7 @@ pub const TEXT: &str = concat!(
     include_str!("../wgsl/shared/surface.wgsl"),
     include_str!("../wgsl/shared/land.wgsl"),
     include_str!("../wgsl/shared/land_factors.wgsl"),
+    include_str!("../wgsl/shared/sea_read.wgsl"),
     include_str!("../wgsl/shared/surface_at.wgsl"),
     include_str!("../wgsl/shared/looks_grid.wgsl"),
     include_str!("../wgsl/shared/looks_detail.wgsl"),

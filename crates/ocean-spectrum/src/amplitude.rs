@@ -74,13 +74,6 @@ pub(crate) struct Placed {
     corner: Vec2,
 }
 
-/// The factors at a place.
-pub(crate) struct Factors {
-    pub(crate) value: CascadeFactors,
-    /// By x and by z, 1/m.
-    pub(crate) slope: [CascadeFactors; 2],
-}
-
 struct Place {
     /// First of the four texels around.
     at: usize,
@@ -120,17 +113,15 @@ impl Placed {
         mix(self.corners(&place), place.t)
     }
 
-    /// The factors and their slopes there.
-    pub(crate) fn at(&self, rest: Vec2) -> Factors {
+    /// The slopes of the factors there, by x and by z, 1/m.
+    pub(crate) fn slopes(&self, rest: Vec2) -> [CascadeFactors; 2] {
         let place = self.place(rest);
-        let corners = self.corners(&place);
-        let [a, b, c, d] = corners;
+        let [a, b, c, d] = self.corners(&place);
         let t = place.t;
         let scale = place.inside / self.map.texel;
         let along_x = |i: usize| ((b[i] - a[i]) + ((d[i] - c[i]) - (b[i] - a[i])) * t.y) * scale.x;
         let along_z = |i: usize| ((c[i] - a[i]) + ((d[i] - b[i]) - (c[i] - a[i])) * t.x) * scale.y;
-        let slope = [std::array::from_fn(along_x), std::array::from_fn(along_z)];
-        Factors { value: mix(corners, t), slope }
+        [std::array::from_fn(along_x), std::array::from_fn(along_z)]
     }
 }
 

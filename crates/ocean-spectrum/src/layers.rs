@@ -1,217 +1,247 @@
-//! The sum of the cascades at rest points, each scaled by the map's factor there, and the way back from a world point
-//! to the rest point that is seen there. The twin of `wgsl/shared/surface_at.wgsl`.
+//! The sum of the cascades' arrays at rest points, each scaled by a map's factor there, for eight points side by side.
 
-use glam::Vec2;
-use open_water_shaders::surface::{
-    CHOP_FIXED_ROUNDS, CHOP_LEAST_SLOPE, CHOP_LEAST_STEP, CHOP_NEWTON_ROUNDS, CHOP_TOLERANCE,
-};
+use fearless_simd::{Simd, f32x8, prelude::*};
+use glam::{DVec2, Vec2};
+use open_water_shaders::surface::MAX_CASCADES;
 
 use crate::amplitude::Placed;
-use crate::kernel::Taps;
+use crate::invert::{Field, Four, Group, Motion, Pair, Reading};
+use crate::kernel::{LANES, Lanes, Spare, Sums, Taps, Texels, fields};
 use crate::lazy::Synthesis;
 use crate::patch::Band;
 use crate::set::ModeSet;
 
-/// A cascade as a query reads it.
+/// What an ocean holds of a cascade.
 #[derive(Clone)]
 pub(crate) struct Layer {
-    /// Local origin within the tile, metres.
-    pub(crate) offset: Vec2,
-    texels_per_metre: f32,
-    size: usize,
     pub(crate) band: Band,
     pub(crate) fields: Synthesis,
 }
 
 impl Layer {
     pub(crate) fn new(set: &ModeSet, c: usize, fields: Synthesis) -> Self {
-        let modes = &set.modes[c];
-        Self {
-            offset: Vec2::ZERO,
-            texels_per_metre: modes.size as f32 / modes.tile,
-            size: modes.size as usize,
-            band: set.bands[c],
-            fields,
-        }
-    }
-
-    #[inline]
-    pub(crate) fn taps(&self, rest: Vec2) -> Taps {
-        Taps::new((rest + self.offset) * self.texels_per_metre, self.size)
+        Self { band: set.bands[c], fields }
     }
 }
 
-/// All cascades and what scales them.
-#[derive(Clone, Copy)]
+/// A cascade as queries read it.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct View<'a> {
+    /// Local origin within the tile, metres.
+    pub(crate) offset: DVec2,
+    pub(crate) texels_per_metre: f64,
+    pub(crate) displacement: Texels<'a>,
+    /// Empty where only heights are asked for, as is `velocity`.
+    pub(crate) derivative: Texels<'a>,
+    pub(crate) velocity: Texels<'a>,
+    pub(crate) band: Band,
+}
+
+/// All cascades, longest first, and what scales them.
 pub(crate) struct Layers<'a> {
-    pub(crate) layers: &'a [Layer],
+    pub(crate) count: usize,
+    pub(crate) views: [View<'a>; MAX_CASCADES],
     pub(crate) map: Option<&'a Placed>,
 }
 
-/// The surface's gradient by rest coordinates.
+/// What the layers keep of a group's points.
 #[derive(Clone, Copy)]
-pub(crate) struct Gradient {
-    /// `(dh/dx, dh/dz, dDx/dx, dDz/dz)`.
-    pub(crate) d: [f32; 4],
-    /// `(dDx/dz, dDz/dx)`: equal but for what the map's slopes add.
-    pub(crate) cross: [f32; 2],
+pub(crate) struct Spot<S: Simd> {
+    /// In texels, from the middle of each array.
+    base: [Pair<S>; MAX_CASCADES],
+    /// What a body at each point feels of each cascade.
+    share: [f32x8<S>; MAX_CASCADES],
 }
 
-/// All there is at a rest point.
-pub(crate) struct State {
-    /// `(Dx, h, Dz, ..)`.
-    pub(crate) displacement: [f32; 4],
-    pub(crate) gradient: Gradient,
-    pub(crate) velocity: [f32; 4],
+/// Factors on the cascades at the rest points of a group.
+type Weights = [Lanes; MAX_CASCADES];
+
+/// A position along one axis in texels, within half an array of 0: in f64, so that it is as exact far from the origin.
+#[inline(always)]
+fn wrapped<S: Simd>(simd: S, x: f32x8<S>, offset: f64, scale: f64, size: f64) -> f32x8<S> {
+    // Adding and taking away 1.5 * 2^52 rounds to whole numbers.
+    const WHOLE: f64 = 6_755_399_441_055_744.0;
+    let (low, high) = simd.widen_f32x8(x);
+    let (low, high) = ((low + offset) * (scale / size), (high + offset) * (scale / size));
+    let (low, high) = (low - ((low + WHOLE) - WHOLE), high - ((high + WHOLE) - WHOLE));
+    simd.narrow_f64x4(low * size, high * size)
 }
 
-/// Where the water at a point comes from.
-pub(crate) struct Found {
-    pub(crate) rest: Vec2,
-    pub(crate) residual: f32,
-    displacement: [f32; 4],
+/// The lanes whose bits are set.
+#[inline(always)]
+fn set(lanes: u32) -> impl Iterator<Item = usize> {
+    (0..LANES).filter(move |lane| lanes >> lane & 1 == 1)
 }
 
-fn add(sum: &mut [f32; 4], term: [f32; 4]) {
-    for (sum, term) in sum.iter_mut().zip(term) {
-        *sum += term;
-    }
-}
-
-fn add_scaled(sum: &mut [f32; 4], factor: f32, term: [f32; 4]) {
-    add(sum, term.map(|term| factor * term));
-}
-
-impl Gradient {
-    /// What the slopes of a factor add, at a place of this displacement.
-    fn tilt(&mut self, slope_x: f32, slope_z: f32, [x, h, z, _]: [f32; 4]) {
-        add(&mut self.d, [h * slope_x, h * slope_z, x * slope_x, z * slope_z]);
-        self.cross[0] += x * slope_z;
-        self.cross[1] += z * slope_x;
-    }
-
-    /// Determinant of the rest-to-world gradient: not above 0 where the surface folds.
-    pub(crate) fn jacobian(&self) -> f32 {
-        (1.0 + self.d[2]) * (1.0 + self.d[3]) - self.cross[0] * self.cross[1]
-    }
-
-    /// Slope in world coordinates.
-    pub(crate) fn world_slope(&self) -> Vec2 {
-        let [x, z, xx, zz] = self.d;
-        let [p, q] = self.cross;
-        Vec2::new((1.0 + zz) * x - q * z, (1.0 + xx) * z - p * x) / self.jacobian().max(CHOP_LEAST_SLOPE)
-    }
-
-    /// The step at rest that moves the surface by `miss`.
-    fn newton_step(&self, miss: Vec2) -> Vec2 {
-        let (a, b) = (1.0 + self.d[2], 1.0 + self.d[3]);
-        let [p, q] = self.cross;
-        // Near a fold the step would be arbitrarily long.
-        let jacobian = self.jacobian().max(CHOP_LEAST_STEP);
-        let step = Vec2::new(b * miss.x - p * miss.y, a * miss.y - q * miss.x) / jacobian;
-        step.clamp_length_max(4.0 * miss.length())
+/// The weights of cascade `c`.
+#[inline(always)]
+fn of<S: Simd>(simd: S, weights: &Option<Weights>, c: usize) -> Option<f32x8<S>> {
+    match weights {
+        Some(weights) => Some(f32x8::load_array(simd, weights[c])),
+        None => None,
     }
 }
 
 impl Layers<'_> {
-    /// Everything at a rest point, cascade `c` weakened to `share(c)`.
-    pub(crate) fn state(&self, rest: Vec2, share: impl Fn(usize) -> f32) -> State {
-        let mut state =
-            State { displacement: [0.0; 4], gradient: Gradient { d: [0.0; 4], cross: [0.0; 2] }, velocity: [0.0; 4] };
-        let factors = self.map.map(|map| map.at(rest));
-        for (c, layer) in self.layers.iter().enumerate() {
-            let share = share(c);
-            let factor = share * factors.as_ref().map_or(1.0, |factors| factors.value[c]);
-            if share == 0.0 {
-                continue;
+    fn used(&self) -> &[View<'_>] {
+        &self.views[..self.count]
+    }
+
+    /// The factors of the map and of the bodies at a place, if there are any.
+    #[inline(always)]
+    fn weights<S: Simd>(&self, spot: &Spot<S>, group: &Group<S>, at: Pair<S>, lanes: u32) -> Option<Weights> {
+        if self.map.is_none() && group.radius.is_none() {
+            return None;
+        }
+        let mut weights = [[1.0; LANES]; MAX_CASCADES];
+        for (weights, share) in weights.iter_mut().zip(&spot.share) {
+            *weights = share.to_array();
+        }
+        if let Some(map) = self.map {
+            let [x, z] = group.rest(at);
+            for lane in set(lanes) {
+                let values = map.values(Vec2::new(x[lane], z[lane]));
+                for (weight, value) in weights.iter_mut().zip(values) {
+                    weight[lane] *= value;
+                }
             }
-            let taps = layer.taps(rest);
-            let displacement = taps.read(layer.fields.displacement());
-            add_scaled(&mut state.displacement, factor, displacement);
-            add_scaled(&mut state.gradient.d, factor, taps.read(layer.fields.derivative()));
-            add_scaled(&mut state.velocity, factor, taps.read(layer.fields.velocity()));
-            if let Some(factors) = &factors {
-                state.gradient.tilt(share * factors.slope[0][c], share * factors.slope[1][c], displacement);
+        }
+        Some(weights)
+    }
+
+    /// Where a group lies in the array of cascade `c`.
+    #[inline(always)]
+    fn place<S: Simd>(&self, spot: &Spot<S>, c: usize, at: Pair<S>) -> Pair<S> {
+        let scale = self.views[c].texels_per_metre as f32;
+        [spot.base[c][0] + at[0] * scale, spot.base[c][1] + at[1] * scale]
+    }
+}
+
+impl Field for Layers<'_> {
+    type Spot<S: Simd> = Spot<S>;
+
+    #[inline(always)]
+    fn spot<S: Simd>(&self, simd: S, group: &Group<S>) -> Spot<S> {
+        let zero = f32x8::splat(simd, 0.0);
+        let mut spot = Spot { base: [[zero; 2]; MAX_CASCADES], share: [f32x8::splat(simd, 1.0); MAX_CASCADES] };
+        if group.lanes == 0 {
+            return spot;
+        }
+        for (c, layer) in self.used().iter().enumerate() {
+            let (offset, scale) = (layer.offset, layer.texels_per_metre);
+            let size = layer.displacement.size as f64;
+            let [x, z] = group.point;
+            spot.base[c] = [wrapped(simd, x, offset.x, scale, size), wrapped(simd, z, offset.y, scale, size)];
+            if let Some(radius) = group.radius {
+                spot.share[c] = layer.band.share(simd, radius);
             }
         }
-        for cross in &mut state.gradient.cross {
-            *cross += state.displacement[3];
-        }
-        state
+        spot
     }
 
-    /// The same at a place found, all cascades whole.
-    pub(crate) fn state_found(&self, found: &Found) -> State {
-        if self.map.is_some() {
-            return self.state(found.rest, |_| 1.0);
+    #[inline(always)]
+    fn rough<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>, at: Pair<S>, all: bool) -> Four<S> {
+        let lanes = group.lanes;
+        let weights = self.weights(spot, group, at, lanes);
+        let mut spare = Spare::default();
+        let mut sums = [0.0; 4 * LANES];
+        let count = if all { self.count } else { 1 };
+        for (c, layer) in self.views[..count].iter().enumerate() {
+            let weight = of(simd, &weights, c);
+            let taps = Taps::rough(simd, self.place(spot, c, at), layer.displacement.size, weight);
+            for lane in set(lanes) {
+                taps.add_rough(simd, lane, &layer.displacement, &mut spare, &mut sums);
+            }
         }
-        let (mut d, mut velocity) = ([0.0; 4], [0.0; 4]);
-        for layer in self.layers {
-            let taps = layer.taps(found.rest);
-            add(&mut d, taps.read(layer.fields.derivative()));
-            add(&mut velocity, taps.read(layer.fields.velocity()));
-        }
-        let gradient = Gradient { d, cross: [found.displacement[3]; 2] };
-        State { displacement: found.displacement, gradient, velocity }
+        fields(simd, &sums)
     }
 
-    /// Finds the rest point whose water is seen at `point`.
-    pub(crate) fn find(&self, point: Vec2) -> Found {
-        let layers = self.layers;
-        match self.map {
-            None => invert(
-                point,
-                |rest| sum(layers, rest, Synthesis::displacement),
-                |rest, cross| Gradient { d: sum(layers, rest, Synthesis::derivative), cross: [cross; 2] },
-            ),
-            // The slopes of the map are left out of the steps: they are near enough without.
-            Some(map) => invert(
-                point,
-                |rest| scaled_sum(layers, map, rest, Synthesis::displacement),
-                |rest, cross| Gradient { d: scaled_sum(layers, map, rest, Synthesis::derivative), cross: [cross; 2] },
-            ),
+    #[inline(always)]
+    fn reading<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>, at: Pair<S>, lanes: u32) -> Reading<S> {
+        let weights = self.weights(spot, group, at, lanes);
+        let mut spare = Spare::default();
+        let mut sums = [[0.0; 4 * LANES]; 3];
+        for (c, layer) in self.used().iter().enumerate() {
+            let weight = of(simd, &weights, c);
+            let scale = layer.texels_per_metre as f32;
+            let (taps, slopes) =
+                Taps::with_slopes(simd, self.place(spot, c, at), layer.displacement.size, weight, scale);
+            for lane in set(lanes) {
+                taps.add_all(simd, &slopes, lane, &layer.displacement, &mut spare, &mut sums);
+            }
         }
+        let [value, along_x, along_z] = sums;
+        Reading { value: fields(simd, &value), along_x: fields(simd, &along_x), along_z: fields(simd, &along_z) }
+    }
+
+    #[inline(always)]
+    fn motion<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>) -> Motion<S> {
+        let (at, lanes) = (group.to_rest, group.lanes);
+        let weights = self.weights(spot, group, at, lanes);
+        let mut spare = Spare::default();
+        let mut sums = [[0.0; 4 * LANES]; 2];
+        for (c, layer) in self.used().iter().enumerate() {
+            let weight = of(simd, &weights, c);
+            let taps = Taps::new(simd, self.place(spot, c, at), layer.displacement.size, weight);
+            for lane in set(lanes) {
+                taps.add(simd, lane, &layer.derivative, &mut spare, &mut sums[0]);
+                taps.add(simd, lane, &layer.velocity, &mut spare, &mut sums[1]);
+            }
+        }
+        let [derivative, velocity] = sums;
+        let gradient = fields(simd, &derivative);
+        let mut motion = Motion { gradient, cross: [group.cross; 2], velocity: fields(simd, &velocity) };
+        if let Some(map) = self.map {
+            self.tilt(simd, spot, group, map, &mut motion);
+        }
+        motion
+    }
+
+    #[inline(always)]
+    fn decay<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>) -> f32x8<S> {
+        let weights = self.weights(spot, group, group.to_rest, group.lanes);
+        let zero = f32x8::splat(simd, 0.0);
+        let (mut sum, mut weighted) = (f32x8::splat(simd, f32::MIN_POSITIVE), zero);
+        for (c, layer) in self.used().iter().enumerate() {
+            let weight = of(simd, &weights, c).unwrap_or(spot.share[c]);
+            let variance = weight * weight * layer.band.variance;
+            sum = sum + variance;
+            weighted = weighted + variance * layer.band.wavenumber;
+        }
+        // A body that averages out every wave feels at least the longest.
+        let longest = f32x8::splat(simd, self.views[0].band.wavenumber);
+        weighted.simd_gt(zero).select(weighted / sum, longest)
     }
 }
 
-/// The sum of one array, without a map.
-#[inline]
-fn sum(layers: &[Layer], rest: Vec2, texels: impl Fn(&Synthesis) -> &[[f32; 4]]) -> [f32; 4] {
-    let mut sum = [0.0; 4];
-    for layer in layers {
-        add(&mut sum, layer.taps(rest).read(texels(&layer.fields)));
-    }
-    sum
-}
-
-/// The same, scaled by a map.
-fn scaled_sum(layers: &[Layer], map: &Placed, rest: Vec2, texels: impl Fn(&Synthesis) -> &[[f32; 4]]) -> [f32; 4] {
-    let mut sum = [0.0; 4];
-    for (layer, factor) in layers.iter().zip(map.values(rest)) {
-        add_scaled(&mut sum, factor, layer.taps(rest).read(texels(&layer.fields)));
-    }
-    sum
-}
-
-/// Inverts the horizontal displacement: finds `rest` with `rest + D(rest) = point`, given D and its gradient.
-fn invert(
-    point: Vec2,
-    displacement_at: impl Fn(Vec2) -> [f32; 4],
-    gradient_at: impl Fn(Vec2, f32) -> Gradient,
-) -> Found {
-    let mut rest = point;
-    let mut best = Found { rest, residual: f32::INFINITY, displacement: [0.0; 4] };
-    for round in 0..=CHOP_FIXED_ROUNDS + CHOP_NEWTON_ROUNDS {
-        let displacement = displacement_at(rest);
-        let miss = point - rest - Vec2::new(displacement[0], displacement[2]);
-        let residual = miss.length();
-        if residual < best.residual {
-            best = Found { rest, residual, displacement };
+impl Layers<'_> {
+    /// What the slopes of a map's factors add to the gradient.
+    fn tilt<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>, map: &Placed, motion: &mut Motion<S>) {
+        let at = group.to_rest;
+        let [rest_x, rest_z] = group.rest(at);
+        let mut slopes = [[[0.0; LANES]; MAX_CASCADES]; 2];
+        for lane in set(group.lanes) {
+            let factors = map.slopes(Vec2::new(rest_x[lane], rest_z[lane]));
+            for (slopes, factors) in slopes.iter_mut().zip(factors) {
+                for (slopes, slope) in slopes.iter_mut().zip(factors) {
+                    slopes[lane] = slope;
+                }
+            }
         }
-        if residual < CHOP_TOLERANCE {
-            break;
+        let mut spare = Spare::default();
+        let mut sums: [Sums; 2] = [[0.0; 4 * LANES]; 2];
+        for (c, layer) in self.used().iter().enumerate() {
+            for (sums, slopes) in sums.iter_mut().zip(&slopes) {
+                let slope = f32x8::load_array(simd, slopes[c]) * spot.share[c];
+                let taps = Taps::new(simd, self.place(spot, c, at), layer.displacement.size, Some(slope));
+                for lane in set(group.lanes) {
+                    taps.add(simd, lane, &layer.displacement, &mut spare, sums);
+                }
+            }
         }
-        rest += if round < CHOP_FIXED_ROUNDS { miss } else { gradient_at(rest, displacement[3]).newton_step(miss) };
+        let ([xx, hx, zx, _], [xz, hz, zz, _]) = (fields(simd, &sums[0]), fields(simd, &sums[1]));
+        let [x, z, a, b] = motion.gradient;
+        motion.gradient = [x + hx, z + hz, a + xx, b + zz];
+        motion.cross = [motion.cross[0] + xz, motion.cross[1] + zx];
     }
-    best
 }

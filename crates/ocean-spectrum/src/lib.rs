@@ -44,6 +44,7 @@ mod file;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod held;
+mod invert;
 mod kernel;
 mod lanes;
 mod layers;

@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use fearless_simd::Level;
 use glam::{DVec2, Vec2};
+use open_water_shaders::surface::MAX_CASCADES;
 use rayon::prelude::*;
 
 use crate::amplitude::{AmplitudeMap, Placed};
 use crate::change::Segment;
 use crate::error::check;
-use crate::layers::{Layer, Layers};
+use crate::kernel::Texels;
+use crate::layers::{Layer, Layers, View};
 use crate::lazy::{Outputs, Source, Synthesis};
 use crate::modes::Amplitudes;
 use crate::moment::{Moment, Parts, finite};
@@ -181,10 +183,6 @@ impl Ocean {
         if !origin.is_finite() {
             return;
         }
-        for (layer, modes) in self.layers.iter_mut().zip(&self.base.modes) {
-            let tile = f64::from(modes.tile);
-            layer.offset = DVec2::new(origin.x.rem_euclid(tile), origin.y.rem_euclid(tile)).as_vec2();
-        }
         self.origin = origin;
         self.set_amplitudes(self.amplitudes().cloned());
     }
@@ -200,8 +198,28 @@ impl Ocean {
         self.map.as_ref().map(|placed| &placed.map)
     }
 
-    pub(crate) fn layers(&self) -> Layers<'_> {
-        Layers { layers: &self.layers, map: self.map.as_ref() }
+    /// What queries read; derivatives and velocities only where `all` is asked for.
+    pub(crate) fn layers(&self, all: bool) -> Layers<'_> {
+        let mut views = [View::default(); MAX_CASCADES];
+        for (c, ((view, modes), layer)) in views.iter_mut().zip(&self.base.modes).zip(&self.layers).enumerate() {
+            let size = modes.size as usize;
+            let texels =
+                |texels: fn(&Synthesis) -> &[[f32; 4]]| Texels { size, flat: texels(&layer.fields).as_flattened() };
+            view.offset = self.offset_within(c);
+            view.texels_per_metre = f64::from(modes.size) / f64::from(modes.tile);
+            view.band = layer.band;
+            view.displacement = texels(Synthesis::displacement);
+            if all {
+                view.derivative = texels(Synthesis::derivative);
+                view.velocity = texels(Synthesis::velocity);
+            }
+        }
+        Layers { count: self.layers.len(), views, map: self.map.as_ref() }
+    }
+
+    fn offset_within(&self, c: usize) -> DVec2 {
+        let tile = f64::from(self.base.modes[c].tile);
+        DVec2::new(self.origin.x.rem_euclid(tile), self.origin.y.rem_euclid(tile))
     }
 
     /// The local origin within the tile of cascade `c`, metres: add it to a local position to get one in the arrays.
@@ -209,7 +227,7 @@ impl Ocean {
     /// # Panics
     /// If there is no such cascade.
     pub fn offset(&self, c: usize) -> Vec2 {
-        self.layers[c].offset
+        self.offset_within(c).as_vec2()
     }
 
     /// The displacement of cascade `c` alone; see [`CascadeFields::displacement`].

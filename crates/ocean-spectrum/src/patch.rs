@@ -1,10 +1,12 @@
 //! The water under a small body, in one answer.
 
+use fearless_simd::{Level, Simd, f32x8, prelude::*};
 use glam::{Vec2, Vec3};
 
-use crate::layers::State;
-use crate::query::is_place;
-use crate::{CascadeFactors, CascadeModes, Ocean};
+use crate::invert::{Field, Group};
+use crate::kernel::{LANES, stored};
+use crate::query::{Answer, run};
+use crate::{CascadeModes, Ocean};
 
 /// The sea around a point as a small body feels it: a plane with its motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -22,10 +24,10 @@ pub struct OceanPatch {
 }
 
 /// Means over the energy of one cascade.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Band {
-    variance: f32,
-    wavenumber: f32,
+    pub(crate) variance: f32,
+    pub(crate) wavenumber: f32,
 }
 
 impl Band {
@@ -52,53 +54,105 @@ impl Band {
         Self { variance: sum, wavenumber: weighted / sum }
     }
 
-    /// Share of the waves that is left in their mean over a disc: `2 J1(x)/x` at `x = k radius`, 0 from its first zero.
-    fn share(self, radius: f32) -> f32 {
-        let x = self.wavenumber * radius.max(1e-3);
-        if x < 3.8317 { 2.0 * libm::j1f(x) / x } else { 0.0 }
+    /// Share of the waves that bodies of these radii feel.
+    #[inline(always)]
+    pub(crate) fn share<S: Simd>(&self, simd: S, radius: f32x8<S>) -> f32x8<S> {
+        disc_mean(simd, radius * self.wavenumber)
+    }
+}
+
+/// Share of waves that is left in their mean over a disc: `2 J1(x)/x` at `x = k radius`, 0 from its first zero.
+#[inline(always)]
+pub(crate) fn disc_mean<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
+    // The power series, sum of (-q)^n/(n! (n+1)!) with q = x^2/4: cut here, it errs by less than 1e-7 up to the zero.
+    let mut sum = f32x8::splat(simd, 0.0);
+    let q = x * x * 0.25;
+    for factor in SERIES {
+        sum = sum * q + factor;
+    }
+    x.simd_lt(f32x8::splat(simd, 3.831_706)).select(sum, f32x8::splat(simd, 0.0))
+}
+
+/// `(-1)^n/(n! (n+1)!)` from n = 11 down.
+const SERIES: [f32; 12] = {
+    let mut series = [1.0f32; 12];
+    let (mut n, mut term) = (0, 1.0f64);
+    while n < 12 {
+        series[11 - n] = term as f32;
+        n += 1;
+        term /= -((n * (n + 1)) as f64);
+    }
+    series
+};
+
+#[derive(Clone, Copy)]
+struct Patches<'a> {
+    radii: &'a [f32],
+}
+
+impl Answer for Patches<'_> {
+    type Out = OceanPatch;
+
+    #[inline(always)]
+    fn prepare<S: Simd>(&self, simd: S, first: usize, group: &mut Group<S>) {
+        let mut radius = [0.0; LANES];
+        for (held, &given) in radius.iter_mut().zip(self.radii.iter().skip(first)) {
+            *held = given.max(0.0);
+        }
+        group.radius = Some(f32x8::load_array(simd, radius));
+    }
+
+    #[inline(always)]
+    fn store<S: Simd, F: Field>(
+        &self,
+        simd: S,
+        field: &F,
+        spot: &F::Spot<S>,
+        group: &Group<S>,
+        out: &mut [OceanPatch],
+    ) {
+        let motion = field.motion(simd, spot, group);
+        let [x, z] = motion.world_slope(simd);
+        let gradient = [x.to_array(), z.to_array()];
+        let velocity = stored(motion.velocity);
+        let (height, decay) = (group.height.to_array(), field.decay(simd, spot, group).to_array());
+        for (l, out) in out.iter_mut().enumerate() {
+            *out = OceanPatch { decay_wavenumber: decay[l], ..Default::default() };
+            if group.lanes >> l & 1 == 1 {
+                out.height = height[l];
+                out.gradient = Vec2::new(gradient[0][l], gradient[1][l]);
+                out.velocity = Vec3::new(velocity[0][l], velocity[1][l], velocity[2][l]);
+                out.vertical_acceleration = velocity[3][l];
+            }
+        }
     }
 }
 
 impl Ocean {
-    /// The sea under a body of the given radius (metres) at a local position, at the time set.
+    /// The sea under bodies of the given radii (metres) at local positions, at the time set, on rayon's threads; as many
+    /// answers as the shortest slice holds.
     ///
     /// A body does not feel waves much shorter than itself, since their rise and fall cancels over its area: each
     /// cascade counts by the mean that is left over a disc of that radius at the cascade's mean wavenumber. With
     /// radius 0 the answer is that of [`Ocean::sample`]. Calm water where the position is not finite or farther than
     /// 10^8 m; a radius that is negative or not a number counts as 0.
+    pub fn patches(&self, centers: &[Vec2], radii: &[f32], out: &mut [OceanPatch]) {
+        let count = radii.len().min(centers.len());
+        run(Level::new(), &self.layers(true), Patches { radii }, &centers[..count], out);
+    }
+
+    /// The sea under one body; see [`Ocean::patches`].
     pub fn patch(&self, center: Vec2, radius: f32) -> OceanPatch {
-        let decay_wavenumber = self.decay_wavenumber(radius);
-        if !is_place(center) {
-            return OceanPatch { decay_wavenumber, ..Default::default() };
-        }
-        let layers = self.layers();
-        let rest = layers.find(center).rest;
-        let State { displacement, gradient, velocity } = layers.state(rest, |c| self.layers[c].band.share(radius));
-        OceanPatch {
-            height: displacement[1],
-            gradient: gradient.world_slope(),
-            velocity: Vec3::new(velocity[0], velocity[1], velocity[2]),
-            vertical_acceleration: velocity[3],
-            decay_wavenumber: layers.map.map_or(decay_wavenumber, |map| self.decay(radius, map.values(rest))),
-        }
+        let mut out = [OceanPatch::default()];
+        self.patches(&[center], &[radius], &mut out);
+        out[0]
     }
 
     /// Mean wavenumber, weighted by variance, of the waves that a body of the given radius (metres) feels, rad/m: the
     /// pressure and motion of the sea fade about as e^(-k d) with depth d under it. That of the open sea, where no map
     /// weakens it.
     pub fn decay_wavenumber(&self, radius: f32) -> f32 {
-        self.decay(radius, [1.0; 8])
-    }
-
-    fn decay(&self, radius: f32, factors: CascadeFactors) -> f32 {
-        let (mut sum, mut weighted) = (f32::MIN_POSITIVE, 0.0);
-        for (band, factor) in self.layers.iter().map(|layer| layer.band).zip(factors) {
-            let share = band.share(radius) * factor;
-            let weight = band.variance * share * share;
-            sum += weight;
-            weighted += weight * band.wavenumber;
-        }
-        // A body that averages out every wave feels at least the longest.
-        if weighted > 0.0 { weighted / sum } else { self.layers[0].band.wavenumber }
+        // Where there is no place, no map counts.
+        self.patch(Vec2::NAN, radius).decay_wavenumber
     }
 }

@@ -2,18 +2,19 @@
 //!
 //! One point's answer does not depend on the others asked for with it.
 
+use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
 use glam::{Vec2, Vec3};
+use open_water_shaders::surface::CHOP_LEAST_SLOPE;
 use rayon::prelude::*;
 
 use crate::Ocean;
-use crate::layers::{Layers, State};
+use crate::invert::{Field, GROUPS, Group, Motion, Pair, invert};
+use crate::kernel::{LANES, stored};
 
 /// Where the surface does not fold, some particle is nearer than this, metres.
 const LARGEST_RESIDUAL: f32 = 1e-3;
-/// Farthest position that is answered, metres: f32 cannot tell places apart long before.
-const FARTHEST: f32 = 1e8;
 /// Points that one task answers.
-const BATCH: usize = 256;
+const BATCH: usize = 512;
 
 /// The sea at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +33,12 @@ pub struct OceanSample {
     pub residual: f32,
     /// Whether the surface folds over itself there, so that the answer is one of several or none fits.
     pub folded: bool,
+    /// Area of the surface, seen from above, for each unit of it at rest: the determinant of the gradient of world by
+    /// rest positions. Below 1 at crests, not above 0 where the surface folds.
+    pub jacobian: f32,
+    /// How many times as long as at rest the surface is along its main axes, seen from above, least first: the
+    /// eigenvalues of the gradient's symmetric part. The first is small, or negative, where crests break.
+    pub stretch: [f32; 2],
 }
 
 impl Default for OceanSample {
@@ -45,54 +52,189 @@ impl Default for OceanSample {
             rest: Vec2::ZERO,
             residual: 0.0,
             folded: false,
+            jacobian: 1.0,
+            stretch: [1.0; 2],
         }
     }
 }
 
-fn sample(layers: Layers<'_>, point: Vec2) -> OceanSample {
-    if !is_place(point) {
-        return OceanSample::default();
+impl<S: Simd> Motion<S> {
+    /// Determinant of the rest-to-world gradient.
+    #[inline(always)]
+    fn jacobian(&self) -> f32x8<S> {
+        let [_, _, xx, zz] = self.gradient;
+        (xx + 1.0) * (zz + 1.0) - self.cross[0] * self.cross[1]
     }
-    let found = layers.find(point);
-    let State { displacement, gradient, velocity } = layers.state_found(&found);
-    let slope = gradient.world_slope();
-    OceanSample {
-        height: displacement[1],
-        normal: Vec3::new(-slope.x, 1.0, -slope.y).normalize(),
-        velocity: Vec3::new(velocity[0], velocity[1], velocity[2]),
-        vertical_acceleration: velocity[3],
-        rest: found.rest,
-        residual: found.residual,
-        folded: gradient.jacobian() <= 0.0 || gradient.d[2] <= -1.0 || found.residual > LARGEST_RESIDUAL,
+
+    /// Slope in world coordinates.
+    #[inline(always)]
+    pub(crate) fn world_slope(&self, simd: S) -> Pair<S> {
+        let [x, z, xx, zz] = self.gradient;
+        let [p, q] = self.cross;
+        let jacobian = self.jacobian().max(f32x8::splat(simd, CHOP_LEAST_SLOPE));
+        [((zz + 1.0) * x - q * z) / jacobian, ((xx + 1.0) * z - p * x) / jacobian]
+    }
+
+    /// How far the place found misses the point: as measured, or, after a last step, by the change of the gradient
+    /// along it.
+    #[inline(always)]
+    fn residual(&self, group: &Group<S>) -> f32x8<S> {
+        let [_, _, xx, zz] = self.gradient;
+        let [a, p, q, b] = group.gradient;
+        let [x, z] = group.step;
+        let miss_x = (xx - a) * x + (self.cross[0] - p) * z;
+        let miss_z = (self.cross[1] - q) * x + (zz - b) * z;
+        let left = (miss_x * miss_x + miss_z * miss_z).sqrt() * 0.5;
+        let stepped = (x * x + z * z).simd_gt(x * 0.0);
+        stepped.select(left, group.missed)
+    }
+
+    /// Eigenvalues of the symmetric part of the rest-to-world gradient, least first.
+    #[inline(always)]
+    fn stretch(&self) -> Pair<S> {
+        let [_, _, xx, zz] = self.gradient;
+        let (mean, half) = ((xx + zz) * 0.5 + 1.0, (xx - zz) * 0.5);
+        let cross = (self.cross[0] + self.cross[1]) * 0.5;
+        let radius = (half * half + cross * cross).sqrt();
+        [mean - radius, mean + radius]
     }
 }
 
-/// Whether there is an answer at a position.
-pub(crate) fn is_place(point: Vec2) -> bool {
-    point.abs().cmple(Vec2::splat(FARTHEST)).all()
+/// What is made of groups that have been inverted.
+pub(crate) trait Answer: Copy + Sync {
+    /// One point's answer.
+    type Out: Send;
+
+    /// Tells a group what concerns its points beside their places; `first` is the index of the first of them.
+    #[inline(always)]
+    fn prepare<S: Simd>(&self, _simd: S, _first: usize, _group: &mut Group<S>) {}
+
+    fn store<S: Simd, F: Field>(&self, simd: S, field: &F, spot: &F::Spot<S>, group: &Group<S>, out: &mut [Self::Out]);
+}
+
+/// Answers points, as many as the shorter slice holds, on rayon's threads.
+pub(crate) fn run<F: Field, A: Answer>(level: Level, field: &F, how: A, points: &[Vec2], out: &mut [A::Out]) {
+    let batches = points.par_chunks(BATCH).zip(out.par_chunks_mut(BATCH)).enumerate();
+    let batch = |i: usize, points: &[Vec2], out: &mut [A::Out]| {
+        dispatch!(level, simd => answer(simd, field, how, i * BATCH, points, out));
+    };
+    if points.len() <= BATCH {
+        batch(0, points, out);
+    } else {
+        batches.for_each(|(i, (points, out))| batch(i, points, out));
+    }
+}
+
+/// Answers points in their order. `first` is the index of the first.
+#[inline(always)]
+fn answer<S: Simd, F: Field, A: Answer>(simd: S, field: &F, how: A, first: usize, points: &[Vec2], out: &mut [A::Out]) {
+    let size = GROUPS * LANES;
+    let empty = Group::new(simd, &[]);
+    for (i, (points, out)) in points.chunks(size).zip(out.chunks_mut(size)).enumerate() {
+        let points = &points[..points.len().min(out.len())];
+        let count = points.len().div_ceil(LANES);
+        let mut groups = [(empty, field.spot(simd, &empty)); GROUPS];
+        for (g, (points, (group, spot))) in points.chunks(LANES).zip(&mut groups).enumerate() {
+            *group = Group::new(simd, points);
+            how.prepare(simd, first + i * size + g * LANES, group);
+            *spot = field.spot(simd, group);
+        }
+        let groups = &mut groups[..count];
+        invert(simd, field, groups);
+        for ((group, spot), out) in groups.iter().zip(out.chunks_mut(LANES)) {
+            how.store(simd, field, spot, group, out);
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Heights;
+
+impl Answer for Heights {
+    type Out = f32;
+
+    #[inline(always)]
+    fn store<S: Simd, F: Field>(&self, _simd: S, _field: &F, _spot: &F::Spot<S>, group: &Group<S>, out: &mut [f32]) {
+        let heights = group.height.to_array();
+        out.copy_from_slice(&heights[..out.len()]);
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Samples;
+
+impl Answer for Samples {
+    type Out = OceanSample;
+
+    #[inline(always)]
+    fn store<S: Simd, F: Field>(
+        &self,
+        simd: S,
+        field: &F,
+        spot: &F::Spot<S>,
+        group: &Group<S>,
+        out: &mut [OceanSample],
+    ) {
+        let motion = field.motion(simd, spot, group);
+        let [x, z] = motion.world_slope(simd);
+        let length = (x * x + z * z + 1.0).sqrt();
+        let one = f32x8::splat(simd, 1.0);
+        let normal = [(-x / length).to_array(), (one / length).to_array(), (-z / length).to_array()];
+        let velocity = stored(motion.velocity);
+        let (jacobian, residual) = (motion.jacobian(), motion.residual(group));
+        let zero = f32x8::splat(simd, 0.0);
+        let folded = jacobian.simd_le(zero)
+            | motion.gradient[2].simd_le(zero - one)
+            | residual.simd_gt(f32x8::splat(simd, LARGEST_RESIDUAL));
+        let folded = folded.to_bitmask();
+        let [least, most] = motion.stretch();
+        let stretch = [least.to_array(), most.to_array()];
+        let rest = group.rest(group.to_rest);
+        let (height, residual, jacobian) = (group.height.to_array(), residual.to_array(), jacobian.to_array());
+        for (l, out) in out.iter_mut().enumerate() {
+            *out = if group.lanes >> l & 1 == 0 {
+                OceanSample::default()
+            } else {
+                OceanSample {
+                    height: height[l],
+                    normal: Vec3::new(normal[0][l], normal[1][l], normal[2][l]),
+                    velocity: Vec3::new(velocity[0][l], velocity[1][l], velocity[2][l]),
+                    vertical_acceleration: velocity[3][l],
+                    rest: Vec2::new(rest[0][l], rest[1][l]),
+                    residual: residual[l],
+                    folded: folded >> l & 1 == 1,
+                    jacobian: jacobian[l],
+                    stretch: [stretch[0][l], stretch[1][l]],
+                }
+            };
+        }
+    }
 }
 
 impl Ocean {
+    /// Heights at local positions (x, z), metres, at a time, seconds: [`Ocean::set_time`] and the height of
+    /// [`Ocean::sample`]. Only the displacement is synthesised for it.
+    pub fn heights(&mut self, points: &[Vec2], t: f64, out: &mut [f32]) {
+        self.set_time(t);
+        run(Level::new(), &self.layers(false), Heights, points, out);
+    }
+
+    /// [`Ocean::sample`] at a time, seconds: [`Ocean::set_time`] first.
+    pub fn samples(&mut self, points: &[Vec2], t: f64, out: &mut [OceanSample]) {
+        self.set_time(t);
+        self.sample(points, out);
+    }
+
     /// The sea at local positions (x, z), metres, at the time set, on rayon's threads; as many answers as the shorter
     /// slice holds. Calm water where a position is not finite or farther than 10^8 m.
     pub fn sample(&self, points: &[Vec2], out: &mut [OceanSample]) {
-        let layers = self.layers();
-        let answer = |points: &[Vec2], out: &mut [OceanSample]| {
-            for (&point, out) in points.iter().zip(out) {
-                *out = sample(layers, point);
-            }
-        };
-        if points.len() <= BATCH {
-            answer(points, out);
-        } else {
-            points.par_chunks(BATCH).zip(out.par_chunks_mut(BATCH)).for_each(|(points, out)| answer(points, out));
-        }
+        run(Level::new(), &self.layers(true), Samples, points, out);
     }
 
     /// Height at a local position, metres; see [`Ocean::sample`].
     pub fn height(&self, point: Vec2) -> f32 {
-        let mut out = [OceanSample::default()];
-        self.sample(&[point], &mut out);
-        out[0].height
+        let mut out = [0.0];
+        run(Level::new(), &self.layers(false), Heights, &[point], &mut out);
+        out[0]
     }
 }

@@ -12,48 +12,19 @@ struct Gradient {
     cross: vec2<f32>,
 }
 
-// A cascade of an array at a rest point, by the cubic kernel.
-fn read_cascade(array: texture_2d_array<f32>, index: u32, rest: vec2<f32>) -> vec4<f32> {
-    let c = surface_table.cascades[index];
-    let x = (rest + c.offset) * (c.size / c.tile);
-    let base = floor(x);
-    let mask = vec2<i32>(i32(c.size) - 1);
-    let wx = cubic_weights(x.x - base.x);
-    let wz = cubic_weights(x.y - base.y);
-    var sum = vec4<f32>(0.0);
-    for (var j = 0; j < 4; j++) {
-        for (var i = 0; i < 4; i++) {
-            let texel = (vec2<i32>(base) + vec2<i32>(i - 1, j - 1)) & mask;
-            sum += wx[i] * wz[j] * textureLoad(array, texel, index, 0);
-        }
-    }
-    return sum;
+// A place found: the displacement there and its rest point.
+struct Found {
+    rest: vec2<f32>,
+    displacement: vec4<f32>,
 }
 
-// (Dx, h, Dz, dDx/dz) of the ambient sea at a rest point; the last without what the factors' slopes add.
-fn displacement_at(rest: vec2<f32>) -> vec4<f32> {
-    let factors = land_factors(rest);
-    var sum = vec4<f32>(0.0);
-    for (var c = 0u; c < surface_table.cascade_count; c++) {
-        sum += land_factor(factors, c) * read_cascade(surface_displacement, c, rest);
-    }
-    return sum;
-}
-
-// The gradient of the ambient sea at a rest point, where displacement_at gave `cross` for dDx/dz, as if the factors were
-// the same everywhere: near enough to find a rest point with.
-fn level_gradient_at(rest: vec2<f32>, cross: f32) -> Gradient {
+// The gradient at a rest point, where dDx/dz is `cross` but for what the slopes of the factors add.
+fn gradient_at(rest: vec2<f32>, cross: f32) -> Gradient {
     let factors = land_factors(rest);
     var g = Gradient(vec4<f32>(0.0), vec2<f32>(cross));
     for (var c = 0u; c < surface_table.cascade_count; c++) {
         g.d += land_factor(factors, c) * read_cascade(surface_derivative, c, rest);
     }
-    return g;
-}
-
-// The gradient with the slopes of the factors.
-fn gradient_at(rest: vec2<f32>, cross: f32) -> Gradient {
-    var g = level_gradient_at(rest, cross);
     if has_land() {
         let slopes = land_slopes(rest);
         for (var c = 0u; c < surface_table.cascade_count; c++) {
@@ -66,41 +37,43 @@ fn gradient_at(rest: vec2<f32>, cross: f32) -> Gradient {
     return g;
 }
 
-// Determinant of the rest-to-world gradient (1 + grad D). Where the surface is compressed below `least`, it counts as
-// compressed that much, so that what is divided by it stays finite at folds.
-fn compression(g: Gradient, least: f32) -> f32 {
-    return max((1.0 + g.d.z) * (1.0 + g.d.w) - g.cross.x * g.cross.y, least);
-}
-
-// Slope of the ambient sea in world coordinates.
+// Slope of the ambient sea in world coordinates. Where the surface is compressed more, it counts as compressed by
+// CHOP_LEAST_SLOPE, so that slopes stay finite at folds.
 fn world_slope(g: Gradient) -> vec2<f32> {
     let s = vec2<f32>((1.0 + g.d.w) * g.d.x - g.cross.y * g.d.y, (1.0 + g.d.z) * g.d.y - g.cross.x * g.d.x);
-    return s / compression(g, CHOP_LEAST_SLOPE);
+    let compression = (1.0 + g.d.z) * (1.0 + g.d.w) - g.cross.x * g.cross.y;
+    return s / max(compression, CHOP_LEAST_SLOPE);
 }
 
-// Where the water at a world point comes from: a few fixed-point rounds, then Newton's method, which also gets to the
-// steep places.
-fn rest_of(point: vec2<f32>) -> vec2<f32> {
-    var rest = point;
-    var best = point;
+// The step at rest that moves the surface by `miss`, by Newton's method.
+fn newton_step(r: Reading, miss: vec2<f32>) -> vec2<f32> {
+    let a = 1.0 + r.along_x.x;
+    let b = 1.0 + r.along_z.z;
+    let p = r.along_z.x;
+    let q = r.along_x.z;
+    // Near a fold the step would be arbitrarily long.
+    let step = vec2<f32>(b * miss.x - p * miss.y, a * miss.y - q * miss.x) / max(a * b - p * q, CHOP_LEAST_STEP);
+    let most = 4.0 * length(miss);
+    return select(step, step * (most / length(step)), length(step) > most);
+}
+
+// Where the water at a world point comes from: two rough rounds of rest = point - D(rest), then Newton's method until
+// its step is so short that the tangent planes tell what is at its end.
+fn find(point: vec2<f32>) -> Found {
+    var rest = point - rough_displacement(point, 1u).xz;
+    rest = point - rough_displacement(rest, surface_table.cascade_count).xz;
+    var best = Found(rest, vec4<f32>(0.0));
     var least = 1e30;
-    for (var round = 0u; round <= CHOP_FIXED_ROUNDS + CHOP_NEWTON_ROUNDS; round++) {
-        let d = displacement_at(rest);
-        let miss = point - rest - d.xz;
-        let residual = length(miss);
-        if residual < least {
-            least = residual;
-            best = rest;
+    for (var round = 0u; round < CHOP_ROUNDS; round++) {
+        let r = reading_at(rest);
+        let miss = point - rest - r.value.xz;
+        let step = newton_step(r, miss);
+        if length(step) < CHOP_LAST_STEP {
+            return Found(rest + step, r.value + step.x * r.along_x + step.y * r.along_z);
         }
-        if residual < CHOP_TOLERANCE {
-            break;
-        }
-        var step = miss;
-        if round >= CHOP_FIXED_ROUNDS {
-            let g = level_gradient_at(rest, d.w);
-            step = vec2<f32>((1.0 + g.d.w) * miss.x - g.cross.x * miss.y, (1.0 + g.d.z) * miss.y - g.cross.y * miss.x);
-            step /= compression(g, CHOP_LEAST_STEP);
-            step *= min(1.0, 4.0 * residual / length(step));
+        if length(miss) < least {
+            least = length(miss);
+            best = Found(rest, r.value);
         }
         rest += step;
     }
@@ -109,10 +82,9 @@ fn rest_of(point: vec2<f32>) -> vec2<f32> {
 
 // The water at a world point (x, z): the horizontal displacement is inverted, the grids and the level added.
 fn surface_at(point: vec2<f32>) -> SurfacePoint {
-    let rest = rest_of(point);
-    let d = displacement_at(rest);
+    let found = find(point);
     let grids = grids_at(point);
-    let slope = world_slope(gradient_at(rest, d.w)) + grids.yz;
-    let height = d.y + grids.x + surface_table.land.level;
-    return SurfacePoint(height, normalize(vec3<f32>(-slope.x, 1.0, -slope.y)), rest);
+    let slope = world_slope(gradient_at(found.rest, found.displacement.w)) + grids.yz;
+    let height = found.displacement.y + grids.x + surface_table.land.level;
+    return SurfacePoint(height, normalize(vec3<f32>(-slope.x, 1.0, -slope.y)), found.rest);
 }
