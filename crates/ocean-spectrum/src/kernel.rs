@@ -37,6 +37,16 @@ pub(crate) struct Taps {
 pub(crate) struct Slopes {
     x: [Lanes; 4],
     z: [Lanes; 4],
+    /// What the slope of a factor along x adds, as weights along z.
+    tilt: Option<[Lanes; 4]>,
+}
+
+/// A factor on the values of an array at eight places.
+#[derive(Clone, Copy)]
+pub(crate) struct Factor<S: Simd> {
+    pub(crate) value: f32x8<S>,
+    /// Its slopes along x and z, 1/m.
+    pub(crate) slope: [f32x8<S>; 2],
 }
 
 /// Four rows of four texels.
@@ -102,18 +112,28 @@ impl Taps {
         Self::with_weights(simd, [column, row], size, x, scaled(z, factor))
     }
 
-    /// The same as [`Self::new`] with the weights' derivatives, texels being `1/scale` metres.
+    /// The same as [`Self::new`] with the weights' derivatives, texels being `1/scale` metres; those of the factor too.
     #[inline(always)]
     pub(crate) fn with_slopes<S: Simd>(
         simd: S,
         at: [f32x8<S>; 2],
         size: usize,
-        factor: Option<f32x8<S>>,
+        factor: Option<Factor<S>>,
         scale: f32,
     ) -> (Self, Slopes) {
         let ((column, tx), (row, tz)) = (parted(at[0]), parted(at[1]));
-        let taps = Self::with_weights(simd, [column, row], size, weights(tx), scaled(weights(tz), factor));
-        (taps, Slopes { x: stored(slopes(tx, scale)), z: stored(scaled(slopes(tz, scale), factor)) })
+        let (plain, slopes_z) = (weights(tz), slopes(tz, scale));
+        let (mut z, mut along_z, mut tilt) = (plain, slopes_z, None);
+        if let Some(Factor { value, slope }) = factor {
+            z = scaled(plain, Some(value));
+            along_z = scaled(slopes_z, Some(value));
+            for (along, weight) in along_z.iter_mut().zip(&plain) {
+                *along = *along + *weight * slope[1];
+            }
+            tilt = Some(stored(scaled(plain, Some(slope[0]))));
+        }
+        let taps = Self::with_weights(simd, [column, row], size, weights(tx), z);
+        (taps, Slopes { x: stored(slopes(tx, scale)), z: stored(along_z), tilt })
     }
 
     #[inline(always)]
@@ -215,6 +235,11 @@ impl Taps {
             sum = sum + next * self.z[r][lane];
             along_z = along_z + next * slopes.z[r][lane];
             along_x = along_x + line(simd, rows[r], dx) * self.z[r][lane];
+        }
+        if let Some(tilt) = &slopes.tilt {
+            for r in 0..4 {
+                along_x = along_x + line(simd, rows[r], x) * tilt[r][lane];
+            }
         }
         add_to(simd, &mut sums[0], lane, sum);
         add_to(simd, &mut sums[1], lane, along_x);

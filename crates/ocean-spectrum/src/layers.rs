@@ -6,7 +6,7 @@ use open_water_shaders::surface::MAX_CASCADES;
 
 use crate::amplitude::Placed;
 use crate::invert::{Field, Four, Group, Motion, Pair, Reading};
-use crate::kernel::{LANES, Lanes, Spare, Sums, Taps, Texels, fields};
+use crate::kernel::{Factor, LANES, Lanes, Spare, Sums, Taps, Texels, fields};
 use crate::lazy::Synthesis;
 use crate::patch::Band;
 use crate::set::ModeSet;
@@ -109,6 +109,24 @@ impl Layers<'_> {
         Some(weights)
     }
 
+    /// The slopes of the map's factors at a place, along x and z, times what the bodies feel.
+    #[inline(always)]
+    fn weight_slopes<S: Simd>(&self, spot: &Spot<S>, group: &Group<S>, at: Pair<S>, lanes: u32) -> [Weights; 2] {
+        let mut slopes = [[[0.0; LANES]; MAX_CASCADES]; 2];
+        if let Some(map) = self.map {
+            let [x, z] = group.rest(at);
+            for lane in set(lanes) {
+                let factors = map.slopes(Vec2::new(x[lane], z[lane]));
+                for (slopes, factors) in slopes.iter_mut().zip(factors) {
+                    for ((slopes, slope), share) in slopes.iter_mut().zip(factors).zip(&spot.share) {
+                        slopes[lane] = slope * share[lane];
+                    }
+                }
+            }
+        }
+        slopes
+    }
+
     /// Where a group lies in the array of cascade `c`.
     #[inline(always)]
     fn place<S: Simd>(&self, spot: &Spot<S>, c: usize, at: Pair<S>) -> Pair<S> {
@@ -160,12 +178,20 @@ impl Field for Layers<'_> {
     fn reading<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>, at: Pair<S>, lanes: u32) -> Reading<S> {
         let weights = self.weights(spot, group, at, lanes);
         let mut spare = Spare::default();
+        let slopes = self.map.map(|_| self.weight_slopes(spot, group, at, lanes));
         let mut sums = [[0.0; 4 * LANES]; 3];
         for (c, layer) in self.used().iter().enumerate() {
-            let weight = of(simd, &weights, c);
+            let mut factor = None;
+            if let Some(value) = of(simd, &weights, c) {
+                let mut slope = [f32x8::splat(simd, 0.0); 2];
+                if let Some([x, z]) = &slopes {
+                    slope = [f32x8::load_array(simd, x[c]), f32x8::load_array(simd, z[c])];
+                }
+                factor = Some(Factor { value, slope });
+            }
             let scale = layer.texels_per_metre as f32;
             let (taps, slopes) =
-                Taps::with_slopes(simd, self.place(spot, c, at), layer.displacement.size, weight, scale);
+                Taps::with_slopes(simd, self.place(spot, c, at), layer.displacement.size, factor, scale);
             for lane in set(lanes) {
                 taps.add_all(simd, &slopes, lane, &layer.displacement, &mut spare, &mut sums);
             }
@@ -191,8 +217,8 @@ impl Field for Layers<'_> {
         let [derivative, velocity] = sums;
         let gradient = fields(simd, &derivative);
         let mut motion = Motion { gradient, cross: [group.cross; 2], velocity: fields(simd, &velocity) };
-        if let Some(map) = self.map {
-            self.tilt(simd, spot, group, map, &mut motion);
+        if self.map.is_some() {
+            self.tilt(simd, spot, group, &mut motion);
         }
         motion
     }
@@ -216,23 +242,14 @@ impl Field for Layers<'_> {
 
 impl Layers<'_> {
     /// What the slopes of a map's factors add to the gradient.
-    fn tilt<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>, map: &Placed, motion: &mut Motion<S>) {
+    fn tilt<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>, motion: &mut Motion<S>) {
         let at = group.to_rest;
-        let [rest_x, rest_z] = group.rest(at);
-        let mut slopes = [[[0.0; LANES]; MAX_CASCADES]; 2];
-        for lane in set(group.lanes) {
-            let factors = map.slopes(Vec2::new(rest_x[lane], rest_z[lane]));
-            for (slopes, factors) in slopes.iter_mut().zip(factors) {
-                for (slopes, slope) in slopes.iter_mut().zip(factors) {
-                    slopes[lane] = slope;
-                }
-            }
-        }
+        let slopes = self.weight_slopes(spot, group, at, group.lanes);
         let mut spare = Spare::default();
         let mut sums: [Sums; 2] = [[0.0; 4 * LANES]; 2];
         for (c, layer) in self.used().iter().enumerate() {
             for (sums, slopes) in sums.iter_mut().zip(&slopes) {
-                let slope = f32x8::load_array(simd, slopes[c]) * spot.share[c];
+                let slope = f32x8::load_array(simd, slopes[c]);
                 let taps = Taps::new(simd, self.place(spot, c, at), layer.displacement.size, Some(slope));
                 for lane in set(group.lanes) {
                     taps.add(simd, lane, &layer.displacement, &mut spare, sums);

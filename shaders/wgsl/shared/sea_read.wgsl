@@ -48,10 +48,13 @@ fn rough_displacement(rest: vec2<f32>, count: u32) -> vec4<f32> {
     return sum;
 }
 
-// The displacement at a rest point, its slopes those of the kernel, as if the land's factors were the same everywhere:
-// near enough to find a rest point with.
+// The displacement at a rest point, its slopes those of the kernel and of the land's factors.
 fn reading_at(rest: vec2<f32>) -> Reading {
     let factors = land_factors(rest);
+    var slopes: LandSlopes;
+    if has_land() {
+        slopes = land_slopes(rest);
+    }
     var r = Reading(vec4<f32>(0.0), vec4<f32>(0.0), vec4<f32>(0.0));
     for (var c = 0u; c < surface_table.cascade_count; c++) {
         let x = texel_place(c, rest);
@@ -59,9 +62,10 @@ fn reading_at(rest: vec2<f32>) -> Reading {
         let t = x - base;
         let scale = surface_table.cascades[c].size / surface_table.cascades[c].tile;
         let wx = cubic_weights(t.x);
-        let wz = land_factor(factors, c) * cubic_weights(t.y);
+        let wz = cubic_weights(t.y);
         let sx = scale * cubic_slopes(t.x);
-        let sz = scale * land_factor(factors, c) * cubic_slopes(t.y);
+        let sz = scale * cubic_slopes(t.y);
+        var sum = Reading(vec4<f32>(0.0), vec4<f32>(0.0), vec4<f32>(0.0));
         for (var j = 0; j < 4; j++) {
             var line = vec4<f32>(0.0);
             var along = vec4<f32>(0.0);
@@ -70,10 +74,14 @@ fn reading_at(rest: vec2<f32>) -> Reading {
                 line += wx[i] * texel;
                 along += sx[i] * texel;
             }
-            r.value += wz[j] * line;
-            r.along_x += wz[j] * along;
-            r.along_z += sz[j] * line;
+            sum.value += wz[j] * line;
+            sum.along_x += wz[j] * along;
+            sum.along_z += sz[j] * line;
         }
+        let f = land_factor(factors, c);
+        r.value += f * sum.value;
+        r.along_x += f * sum.along_x + land_factor(slopes.x, c) * sum.value;
+        r.along_z += f * sum.along_z + land_factor(slopes.z, c) * sum.value;
     }
     return r;
 }
