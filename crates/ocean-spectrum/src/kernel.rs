@@ -128,7 +128,7 @@ impl Taps {
             z = scaled(plain, Some(value));
             along_z = scaled(slopes_z, Some(value));
             for (along, weight) in along_z.iter_mut().zip(&plain) {
-                *along = *along + *weight * slope[1];
+                *along += *weight * slope[1];
             }
             tilt = Some(stored(scaled(plain, Some(slope[0]))));
         }
@@ -187,11 +187,8 @@ impl Taps {
     #[inline(always)]
     pub(crate) fn add<S: Simd>(&self, simd: S, lane: usize, array: &Texels<'_>, spare: &mut Spare, sums: &mut Sums) {
         let rows = self.rows(lane, array, spare);
-        let x = pairs(simd, &self.x, lane);
-        let mut sum = line(simd, rows[0], x) * self.z[0][lane];
-        for r in 1..4 {
-            sum = sum + line(simd, rows[r], x) * self.z[r][lane];
-        }
+        let lines = lines(simd, rows, pairs(simd, &self.x, lane));
+        let sum = sum(&lines, &self.z, lane);
         add_to(simd, sums, lane, sum);
     }
 
@@ -225,22 +222,13 @@ impl Taps {
         sums: &mut [Sums; 3],
     ) {
         let rows = self.rows(lane, array, spare);
-        let (x, dx) = (pairs(simd, &self.x, lane), pairs(simd, &slopes.x, lane));
-        let first = line(simd, rows[0], x);
-        let mut sum = first * self.z[0][lane];
-        let mut along_z = first * slopes.z[0][lane];
-        let mut along_x = line(simd, rows[0], dx) * self.z[0][lane];
-        for r in 1..4 {
-            let next = line(simd, rows[r], x);
-            sum = sum + next * self.z[r][lane];
-            along_z = along_z + next * slopes.z[r][lane];
-            along_x = along_x + line(simd, rows[r], dx) * self.z[r][lane];
-        }
+        let level = lines(simd, rows, pairs(simd, &self.x, lane));
+        let steep = lines(simd, rows, pairs(simd, &slopes.x, lane));
+        let mut along_x = sum(&steep, &self.z, lane);
         if let Some(tilt) = &slopes.tilt {
-            for r in 0..4 {
-                along_x = along_x + line(simd, rows[r], x) * tilt[r][lane];
-            }
+            along_x += sum(&level, tilt, lane);
         }
+        let (sum, along_z) = (sum(&level, &self.z, lane), sum(&level, &slopes.z, lane));
         add_to(simd, &mut sums[0], lane, sum);
         add_to(simd, &mut sums[1], lane, along_x);
         add_to(simd, &mut sums[2], lane, along_z);
@@ -269,6 +257,16 @@ fn pairs<S: Simd>(simd: S, weights: &[Lanes; 4], lane: usize) -> [f32x8<S>; 2] {
 #[inline(always)]
 fn line<S: Simd>(simd: S, row: &[f32; 16], weights: [f32x8<S>; 2]) -> f32x8<S> {
     f32x8::from_slice(simd, &row[..8]) * weights[0] + f32x8::from_slice(simd, &row[8..]) * weights[1]
+}
+
+#[inline(always)]
+fn lines<S: Simd>(simd: S, [a, b, c, d]: Rows<'_>, weights: [f32x8<S>; 2]) -> [f32x8<S>; 4] {
+    [line(simd, a, weights), line(simd, b, weights), line(simd, c, weights), line(simd, d, weights)]
+}
+
+#[inline(always)]
+fn sum<S: Simd>([a, b, c, d]: &[f32x8<S>; 4], [p, q, r, s]: &[Lanes; 4], lane: usize) -> f32x8<S> {
+    *a * p[lane] + *b * q[lane] + *c * r[lane] + *d * s[lane]
 }
 
 #[inline(always)]

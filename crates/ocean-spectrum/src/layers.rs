@@ -75,6 +75,8 @@ fn set(lanes: u32) -> impl Iterator<Item = usize> {
 
 /// The weights of cascade `c`.
 #[inline(always)]
+// A closure would not be compiled for the vector units.
+#[allow(clippy::manual_map)]
 fn of<S: Simd>(simd: S, weights: &Option<Weights>, c: usize) -> Option<f32x8<S>> {
     match weights {
         Some(weights) => Some(f32x8::load_array(simd, weights[c])),
@@ -231,8 +233,8 @@ impl Field for Layers<'_> {
         for (c, layer) in self.used().iter().enumerate() {
             let weight = of(simd, &weights, c).unwrap_or(spot.share[c]);
             let variance = weight * weight * layer.band.variance;
-            sum = sum + variance;
-            weighted = weighted + variance * layer.band.wavenumber;
+            sum += variance;
+            weighted += variance * layer.band.wavenumber;
         }
         // A body that averages out every wave feels at least the longest.
         let longest = f32x8::splat(simd, self.views[0].band.wavenumber);

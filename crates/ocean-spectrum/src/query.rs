@@ -7,9 +7,9 @@ use glam::{Vec2, Vec3};
 use open_water_shaders::surface::CHOP_LEAST_SLOPE;
 use rayon::prelude::*;
 
-use crate::Ocean;
 use crate::invert::{Field, GROUPS, Group, Motion, Pair, invert};
 use crate::kernel::{LANES, stored};
+use crate::{Ocean, Outputs};
 
 /// Where the surface does not fold, some particle is nearer than this, metres.
 const LARGEST_RESIDUAL: f32 = 1e-3;
@@ -216,12 +216,14 @@ impl Ocean {
     /// [`Ocean::sample`]. Only the displacement is synthesised for it.
     pub fn heights(&mut self, points: &[Vec2], t: f64, out: &mut [f32]) {
         self.set_time(t);
+        self.prepare(Outputs::default());
         run(Level::new(), &self.layers(false), Heights, points, out);
     }
 
     /// [`Ocean::sample`] at a time, seconds: [`Ocean::set_time`] first.
     pub fn samples(&mut self, points: &[Vec2], t: f64, out: &mut [OceanSample]) {
         self.set_time(t);
+        self.prepare(Outputs::ALL);
         self.sample(points, out);
     }
 
