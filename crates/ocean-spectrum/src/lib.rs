@@ -73,6 +73,7 @@ mod spreading;
 mod synthesis;
 mod table;
 mod tail;
+mod tiles;
 
 pub use amplitude::{AmplitudeMap, CascadeFactors};
 pub use error::{Notice, OceanError};

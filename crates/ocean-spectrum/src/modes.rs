@@ -13,7 +13,7 @@ use crate::{CascadeDesc, dispersion, random};
 /// Waves of a shorter cascade start where this many of them fit its tile: enough to resolve their directions and not to
 /// show the tile, while the longer cascade, at a ratio of 6.7 and a size of 256, still has 6.3 texels per wavelength
 /// there, where the cubic kernel loses at most 2 % of them (6 % at 4.7).
-const BAND_START: f64 = 6.0;
+pub(crate) const BAND_START: f64 = 6.0;
 
 /// How the amplitude of a mode follows from the variance of its cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
