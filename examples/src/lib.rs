@@ -78,7 +78,8 @@ pub fn run<S: Scene>() -> ExitCode {
 
 fn start<S: Scene>(options: &Options, more: &S::More) -> Result<(), SceneError> {
     // Bad files are found before a window opens.
-    let setup = options.setup(S::SEA, S::assets(more)?)?;
+    let mut setup = options.setup(S::SEA, S::assets(more)?)?;
+    S::describe(options, &setup.assets, &mut setup.water)?;
     if options.wants_window() {
         match window::run::<S>(options, &setup)? {
             window::Outcome::Done => return Ok(()),

@@ -1,7 +1,7 @@
 //! What a scene tells the framework.
 
 use glam::{Quat, Vec2, Vec3};
-use open_water::{OpenWater, Pose, Tick};
+use open_water::{OpenWater, OpenWaterDesc, Pose, Tick};
 use water_view::{DryHull, MeshView, WaterLook};
 
 use crate::SceneError;
@@ -84,6 +84,14 @@ pub trait Scene: Sized + 'static {
     /// A file is bad.
     fn assets(more: &Self::More) -> Result<Self::Assets, SceneError>;
 
+    /// Changes the description of the water before it is made; its sea is that of the command line, else [`Self::SEA`].
+    ///
+    /// # Errors
+    /// Something of the description is bad.
+    fn describe(_options: &Options, _assets: &Self::Assets, _water: &mut OpenWaterDesc) -> Result<(), SceneError> {
+        Ok(())
+    }
+
     /// Builds the scene around a water that has no bodies yet.
     ///
     /// # Errors
@@ -95,6 +103,14 @@ pub trait Scene: Sized + 'static {
 
     /// The water.
     fn water_mut(&mut self) -> &mut OpenWater;
+
+    /// A digit was typed.
+    ///
+    /// # Errors
+    /// What it asks for cannot be done.
+    fn choose(&mut self, _number: u32) -> Result<(), SceneError> {
+        Ok(())
+    }
 
     /// Runs one tick.
     ///

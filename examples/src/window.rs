@@ -41,6 +41,9 @@ struct Live<S> {
     frames: Timing,
 }
 
+/// Keys by which a scene is told a number.
+const DIGITS: [KeyCode; 5] = [KeyCode::Digit1, KeyCode::Digit2, KeyCode::Digit3, KeyCode::Digit4, KeyCode::Digit5];
+
 #[derive(Default)]
 struct Input {
     keys: Vec<KeyCode>,
@@ -48,6 +51,8 @@ struct Input {
     paused: bool,
     hidden: bool,
     dragging: bool,
+    /// The digit typed since the last frame.
+    chosen: Option<u32>,
     cursor: Option<(f32, f32)>,
 }
 
@@ -64,7 +69,8 @@ struct App<'a, S: Scene> {
 pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Result<Outcome, SceneError> {
     let event_loop = match EventLoop::new() {
         Ok(event_loop) => event_loop,
-        Err(error) => return Ok(Outcome::NoDisplay(error.to_string())),
+        // winit's own words name a line of its source, which helps nobody here.
+        Err(_) => return Ok(Outcome::NoDisplay("no display found".into())),
     };
     let input = Input { autopilot: true, ..Input::default() };
     let mut app = App::<S> { options, setup, live: None, rig: Rig::number(options.view), input, end: Ok(None) };
@@ -86,7 +92,7 @@ impl<S: Scene> Live<S> {
         let attributes = Window::default_attributes().with_title(S::NAME).with_inner_size(PhysicalSize::new(w, h));
         let window = match event_loop.create_window(attributes) {
             Ok(window) => Arc::new(window),
-            Err(error) => return Ok(Err(error.to_string())),
+            Err(_) => return Ok(Err("the display refuses a window".into())),
         };
         let display = Box::new(event_loop.owned_display_handle());
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle_from_env(display));
@@ -135,8 +141,11 @@ impl<S: Scene> Live<S> {
         }
     }
 
-    fn frame(&mut self, rig: &mut Rig, input: &Input) -> Result<(), SceneError> {
+    fn frame(&mut self, rig: &mut Rig, input: &mut Input) -> Result<(), SceneError> {
         use wgpu::CurrentSurfaceTexture as Current;
+        if let Some(number) = input.chosen.take() {
+            self.scene.choose(number)?;
+        }
         let dt = self.last.elapsed().as_secs_f32();
         self.frames.push(self.last);
         self.last = Instant::now();
@@ -200,7 +209,7 @@ impl Input {
             K::Space => self.paused = !self.paused,
             K::KeyO => self.hidden = !self.hidden,
             K::KeyC => rig.next::<S>(),
-            _ => {}
+            _ => self.chosen = DIGITS.iter().position(|digit| *digit == code).map(|at| at as u32 + 1),
         }
     }
 }
@@ -246,7 +255,7 @@ impl<S: Scene> ApplicationHandler for App<'_, S> {
                 MouseScrollDelta::PixelDelta(p) => -p.y as f32 / 40.0,
             }),
             WindowEvent::RedrawRequested => {
-                if let Err(error) = live.frame(&mut self.rig, &self.input) {
+                if let Err(error) = live.frame(&mut self.rig, &mut self.input) {
                     self.end = Err(error);
                     event_loop.exit();
                 }

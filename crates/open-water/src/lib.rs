@@ -65,5 +65,7 @@ pub use floating_body::{
     Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, HullKind, Inertia, MooringLine, Radiation, TriMesh,
     Wrench,
 };
-pub use ocean_spectrum::{CascadeDesc, Ocean, Partition, SeaState, Spectrum, Spreading};
+pub use ocean_spectrum::{
+    CascadeDesc, DirectionalTable, Ocean, OceanDesc, Partition, SeaState, Spectrum, Spreading, TableRow, Tail,
+};
 pub use wave_grid::{Edges, Scheme, WaveGrid};
