@@ -35,6 +35,8 @@
 //! breaking waves.
 
 mod amplitude;
+#[cfg(test)]
+mod bits;
 mod change;
 pub mod dispersion;
 mod error;
