@@ -160,8 +160,8 @@ fn rows<S: Simd>(simd: S, job: Job<'_>, half: &[f32], band: usize, scratch: &mut
                 let value = Complex::<S>::load(simd, &tile[i * floats..][..floats]);
                 (re[i], im[i]) = (value.re, value.im);
             }
-            transpose::<S>(&mut re);
-            transpose::<S>(&mut im);
+            transpose(simd, &mut re);
+            transpose(simd, &mut im);
             for (i, &x) in indices.iter().enumerate() {
                 Complex::<S> { re: re[i], im: im[i] }.store(&mut line[x * floats..][..floats]);
             }
@@ -179,7 +179,7 @@ fn rows<S: Simd>(simd: S, job: Job<'_>, half: &[f32], band: usize, scratch: &mut
             let q = Complex::<S>::load(simd, &q[i * floats..][..floats]);
             values.copy_from_slice(&[p.re, p.im, q.re, q.im * unscale]);
         }
-        transpose::<S>(&mut values);
+        transpose(simd, &mut values);
         for (z, value) in values[..lanes].iter().enumerate() {
             value.store_slice(&mut texels[4 * size * z + lanes * x..][..lanes]);
         }
