@@ -13,6 +13,7 @@ mod ocean_fft;
 mod ocean_gpu;
 mod ocean_height;
 mod ocean_sea;
+mod ocean_time;
 mod rapier;
 
 use crate::evidence::Case;
@@ -22,6 +23,9 @@ pub const CASES: &[Case] = &[
     ocean_fft::CPU,
     ocean_gpu::GPU,
     ocean_fft::VARIANCE,
+    ocean_time::PHASE,
+    ocean_time::RATE,
+    ocean_time::CHANGE,
     ocean_sea::HS,
     ocean_height::QUERIES,
     grid_phase::PHASE,

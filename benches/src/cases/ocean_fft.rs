@@ -101,10 +101,9 @@ fn speed(effort: Effort, size: u32, ocean: &mut Ocean, threads: usize, bound: f6
             ],
         )
     });
-    let row = Row::new("fft_cpu", "speed")
+    let row = Row::new("fft_cpu", if threads == 1 { "one thread" } else { "two threads" })
         .param("size", size)
         .param("cascades", cascades)
-        .param("threads", threads)
         .param("least_us", (least[0] * 1e6).round())
         .error(least[0] / least[1], "of rustfft's time", "as many complex transforms by rustfft; least of all repeats")
         .time("twelve fields of every cascade at a new time", &ours)

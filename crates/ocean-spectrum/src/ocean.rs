@@ -25,14 +25,12 @@ pub struct CascadeDesc {
     pub size: u32,
     /// Side, metres, .5 to 100,000.
     pub tile: f32,
-    /// Seconds between states that are interpolated in time, 0 to 1: 0, the default, makes every time exactly.
-    pub interval: f32,
 }
 
 impl CascadeDesc {
-    /// A cascade that is exact at every time.
+    /// A cascade of so many cells per side on a tile of that side, metres.
     pub fn new(size: u32, tile: f32) -> Self {
-        Self { size, tile, interval: 0.0 }
+        Self { size, tile }
     }
 }
 
@@ -83,7 +81,6 @@ impl OceanDesc {
             check("cascade size", c.size.into(), ok, "a power of two from 16 to 1024")?;
             check("cascade tile", c.tile.into(), (0.5..=100e3).contains(&c.tile), "0.5 to 100000 m")?;
             check("cascade tile", c.tile.into(), c.tile <= 0.8 * last, "at most 0.8 of the tile before it")?;
-            check("cascade interval", c.interval.into(), (0.0..=1.0).contains(&c.interval), "0 to 1 s")?;
             last = c.tile;
         }
         check("choppiness", self.choppiness.into(), (0.0..=2.0).contains(&self.choppiness), "0 to 2")?;
