@@ -5,7 +5,7 @@
 //!
 //! All cascades are synthesised at the size of the largest: a cascade's modes do not depend on its size, so the surface
 //! is the same, drawn finer. A change of the sea needs no word: the mode sets in use are uploaded when they change, and
-//! mixed in the first stage. A cascade's `interval` is not used here: every time is exact.
+//! mixed in the first stage.
 //!
 //! # How a synthesis runs
 //! Two packed spectra share a texel, two texels hold a cascade's eight fields. Transforms run along x, then along z; rows
