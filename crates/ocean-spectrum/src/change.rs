@@ -99,7 +99,7 @@ impl Ocean {
     /// From time `start` on the sea becomes that of `desc` over `seconds` (0 to 86,400): slowly at first and at last,
     /// at every time on the way continuous, forwards and backwards.
     ///
-    /// Where all waves keep frequency and phase (wind, spreading, choppiness change), their amplitudes move. Else (depth,
+    /// Queries are answered in the same way as before. Where all waves keep frequency and phase (wind, spreading, choppiness change), their amplitudes move. Else (depth,
     /// loop time, seed change) the two seas are faded into each other, with variance between the two. What the
     /// changing amplitudes add to velocity and acceleration is left out of [`Self::fields`]: it is smaller than they
     /// are by about the wave's period over `seconds`.
@@ -112,9 +112,10 @@ impl Ocean {
     /// # Errors
     /// [`OceanError::InvalidValue`] as [`OceanDesc::validate`], if the cascades are not those of the sea (size and
     /// tile), and for a start that is not finite; the sea is as it was then.
-    pub fn change_to(&mut self, desc: OceanDesc, start: f64, seconds: f64) -> Result<(), OceanError> {
+    pub fn change_to(&mut self, mut desc: OceanDesc, start: f64, seconds: f64) -> Result<(), OceanError> {
         check("start", start, true, "a finite time")?;
         check("seconds", seconds, (0.0..=86_400.0).contains(&seconds), "0 to 86400 s")?;
+        desc.queries = self.base.desc.queries;
         let to = Arc::new(ModeSet::new(desc, self.base.level)?);
         let same = |(c, (a, b)): (usize, (&CascadeModes, &CascadeModes))| {
             let ok = a.size == b.size && a.tile == b.tile && a.band == b.band;

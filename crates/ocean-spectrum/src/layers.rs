@@ -144,6 +144,11 @@ impl Field for Layers<'_> {
     fn spot<S: Simd>(&self, simd: S, group: &Group<S>) -> Spot<S> {
         let zero = f32x8::splat(simd, 0.0);
         let mut spot = Spot { base: [[zero; 2]; MAX_CASCADES], share: [f32x8::splat(simd, 1.0); MAX_CASCADES] };
+        if let Some(radius) = group.radius {
+            for (share, layer) in spot.share.iter_mut().zip(self.used()) {
+                *share = layer.band.share(simd, radius);
+            }
+        }
         if group.lanes == 0 {
             return spot;
         }
@@ -152,9 +157,6 @@ impl Field for Layers<'_> {
             let size = layer.displacement.size as f64;
             let [x, z] = group.point;
             spot.base[c] = [wrapped(simd, x, offset.x, scale, size), wrapped(simd, z, offset.y, scale, size)];
-            if let Some(radius) = group.radius {
-                spot.share[c] = layer.band.share(simd, radius);
-            }
         }
         spot
     }

@@ -34,6 +34,8 @@
 //! Not here: interactive waves, bodies, refraction (a wave's length follows from one depth everywhere), the shape of
 //! breaking waves.
 
+#[cfg(test)]
+mod agreement;
 mod amplitude;
 #[cfg(test)]
 mod bits;
@@ -49,6 +51,7 @@ mod held;
 mod invert;
 mod kernel;
 mod lanes;
+mod largest;
 mod layers;
 mod lazy;
 mod levels;
@@ -80,6 +83,7 @@ mod tiles;
 pub use amplitude::{AmplitudeMap, CascadeFactors};
 pub use error::{Notice, OceanError};
 pub use feed::{EdgeDesc, EdgeFeed};
+pub use largest::Queries;
 pub use lazy::Outputs;
 pub use modes::{Amplitudes, CascadeModes};
 pub use moment::Moment;

@@ -11,6 +11,7 @@ use crate::amplitude::{AmplitudeMap, Placed};
 use crate::change::Segment;
 use crate::error::check;
 use crate::kernel::Texels;
+use crate::largest::{Direct, Part, Queries};
 use crate::layers::{Layer, Layers, View};
 use crate::lazy::{Outputs, Source, Synthesis};
 use crate::modes::Amplitudes;
@@ -49,6 +50,8 @@ pub struct OceanDesc {
     pub loop_time: f64,
     /// Whether waves of one kind are equally high or random.
     pub amplitudes: Amplitudes,
+    /// How queries are answered.
+    pub queries: Queries,
 }
 
 impl Default for OceanDesc {
@@ -62,6 +65,7 @@ impl Default for OceanDesc {
             choppiness: 1.0,
             loop_time: 1024.0,
             amplitudes: Amplitudes::Unit,
+            queries: Queries::Arrays,
         }
     }
 }
@@ -82,6 +86,9 @@ impl OceanDesc {
             check("cascade tile", c.tile.into(), (0.5..=100e3).contains(&c.tile), "0.5 to 100000 m")?;
             check("cascade tile", c.tile.into(), c.tile <= 0.8 * last, "at most 0.8 of the tile before it")?;
             last = c.tile;
+        }
+        if let Queries::Largest(count) = self.queries {
+            check("queries", count.into(), (1..=4096).contains(&count), "1 to 4096 waves")?;
         }
         check("choppiness", self.choppiness.into(), (0.0..=2.0).contains(&self.choppiness), "0 to 2")?;
         check("loop_time", self.loop_time, (10.0..=10e3).contains(&self.loop_time), "10 to 10000 s")
@@ -212,6 +219,29 @@ impl Ocean {
             }
         }
         Layers { count: self.layers.len(), views, map: self.map.as_ref() }
+    }
+
+    /// What queries sum where the description says so.
+    pub(crate) fn direct(&self) -> Option<Direct<'_>> {
+        let parts = self.parts();
+        let sets = [Some(parts.first()), parts.second()];
+        let mut direct = Direct {
+            parts: [None; 2],
+            choppiness: self.moment.choppiness,
+            tiles: [(1.0, DVec2::ZERO); MAX_CASCADES],
+            count: self.layers.len(),
+            map: self.map.as_ref(),
+        };
+        for (s, set) in sets.into_iter().enumerate() {
+            if let Some(waves) = set.and_then(|set| set.largest.as_ref()) {
+                let (phase, weight) = (self.moment.phase[s], self.moment.weight[s]);
+                direct.parts[s] = Some(Part { waves, phase, weight });
+            }
+        }
+        for (c, (tile, modes)) in direct.tiles.iter_mut().zip(&self.base.modes).enumerate() {
+            *tile = (modes.tile.into(), self.offset_within(c));
+        }
+        direct.parts[0].is_some().then_some(direct)
     }
 
     fn offset_within(&self, c: usize) -> DVec2 {

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 
 use crate::invert::{Field, Group};
 use crate::kernel::{LANES, stored};
-use crate::query::{Answer, run};
+use crate::query::Answer;
 use crate::{CascadeModes, Ocean};
 
 /// The sea around a point as a small body feels it: a plane with its motion.
@@ -86,8 +86,8 @@ const SERIES: [f32; 12] = {
 };
 
 #[derive(Clone, Copy)]
-struct Patches<'a> {
-    radii: &'a [f32],
+pub(crate) struct Patches<'a> {
+    pub(crate) radii: &'a [f32],
 }
 
 impl Answer for Patches<'_> {
@@ -138,7 +138,7 @@ impl Ocean {
     /// 10^8 m; a radius that is negative or not a number counts as 0.
     pub fn patches(&self, centers: &[Vec2], radii: &[f32], out: &mut [OceanPatch]) {
         let count = radii.len().min(centers.len());
-        run(Level::new(), &self.layers(true), Patches { radii }, &centers[..count], out);
+        self.answer(Level::new(), true, Patches { radii }, &centers[..count], out);
     }
 
     /// The sea under one body; see [`Ocean::patches`].

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::invert::{Field, GROUPS, Group, Motion, Pair, invert};
 use crate::kernel::{LANES, stored};
-use crate::{Ocean, Outputs};
+use crate::{Ocean, Outputs, Queries};
 
 /// Where the surface does not fold, some particle is nearer than this, metres.
 const LARGEST_RESIDUAL: f32 = 1e-3;
@@ -113,7 +113,9 @@ pub(crate) trait Answer: Copy + Sync {
 }
 
 /// Answers points, as many as the shorter slice holds, on rayon's threads.
-pub(crate) fn run<F: Field, A: Answer>(level: Level, field: &F, how: A, points: &[Vec2], out: &mut [A::Out]) {
+fn run<F: Field, A: Answer>(level: Level, field: &F, how: A, points: &[Vec2], out: &mut [A::Out]) {
+    let count = points.len().min(out.len());
+    let (points, out) = (&points[..count], &mut out[..count]);
     let batches = points.par_chunks(BATCH).zip(out.par_chunks_mut(BATCH)).enumerate();
     let batch = |i: usize, points: &[Vec2], out: &mut [A::Out]| {
         dispatch!(level, simd => answer(simd, field, how, i * BATCH, points, out));
@@ -131,7 +133,6 @@ fn answer<S: Simd, F: Field, A: Answer>(simd: S, field: &F, how: A, first: usize
     let size = GROUPS * LANES;
     let empty = Group::new(simd, &[]);
     for (i, (points, out)) in points.chunks(size).zip(out.chunks_mut(size)).enumerate() {
-        let points = &points[..points.len().min(out.len())];
         let count = points.len().div_ceil(LANES);
         let mut groups = [(empty, field.spot(simd, &empty)); GROUPS];
         for (g, (points, (group, spot))) in points.chunks(LANES).zip(&mut groups).enumerate() {
@@ -148,7 +149,7 @@ fn answer<S: Simd, F: Field, A: Answer>(simd: S, field: &F, how: A, first: usize
 }
 
 #[derive(Clone, Copy)]
-struct Heights;
+pub(crate) struct Heights;
 
 impl Answer for Heights {
     type Out = f32;
@@ -161,7 +162,7 @@ impl Answer for Heights {
 }
 
 #[derive(Clone, Copy)]
-struct Samples;
+pub(crate) struct Samples;
 
 impl Answer for Samples {
     type Out = OceanSample;
@@ -212,31 +213,46 @@ impl Answer for Samples {
 }
 
 impl Ocean {
+    /// Answers as the description says; derivatives and velocities are there only where `all` is asked for.
+    pub(crate) fn answer<A: Answer>(&self, level: Level, all: bool, how: A, points: &[Vec2], out: &mut [A::Out]) {
+        match self.direct() {
+            Some(direct) => run(level, &direct, how, points, out),
+            None => run(level, &self.layers(all), how, points, out),
+        }
+    }
+
     /// Heights at local positions (x, z), metres, at a time, seconds: [`Ocean::set_time`] and the height of
     /// [`Ocean::sample`]. Only the displacement is synthesised for it.
     pub fn heights(&mut self, points: &[Vec2], t: f64, out: &mut [f32]) {
         self.set_time(t);
-        self.prepare(Outputs::default());
-        run(Level::new(), &self.layers(false), Heights, points, out);
+        self.make(Outputs::default());
+        self.answer(Level::new(), false, Heights, points, out);
     }
 
     /// [`Ocean::sample`] at a time, seconds: [`Ocean::set_time`] first.
     pub fn samples(&mut self, points: &[Vec2], t: f64, out: &mut [OceanSample]) {
         self.set_time(t);
-        self.prepare(Outputs::ALL);
+        self.make(Outputs::ALL);
         self.sample(points, out);
+    }
+
+    /// Makes the arrays that queries read, if they do.
+    fn make(&mut self, outputs: Outputs) {
+        if self.desc().queries == Queries::Arrays {
+            self.prepare(outputs);
+        }
     }
 
     /// The sea at local positions (x, z), metres, at the time set, on rayon's threads; as many answers as the shorter
     /// slice holds. Calm water where a position is not finite or farther than 10^8 m.
     pub fn sample(&self, points: &[Vec2], out: &mut [OceanSample]) {
-        run(Level::new(), &self.layers(true), Samples, points, out);
+        self.answer(Level::new(), true, Samples, points, out);
     }
 
     /// Height at a local position, metres; see [`Ocean::sample`].
     pub fn height(&self, point: Vec2) -> f32 {
         let mut out = [0.0];
-        run(Level::new(), &self.layers(false), Heights, &[point], &mut out);
+        self.answer(Level::new(), false, Heights, &[point], &mut out);
         out[0]
     }
 }

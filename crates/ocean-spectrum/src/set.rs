@@ -7,6 +7,7 @@ use fearless_simd::Level;
 
 use crate::fft::Fft;
 use crate::held::Held;
+use crate::largest::{Largest, Queries};
 use crate::levels::lanes;
 use crate::modes::{self, CascadeModes};
 use crate::pack::Pack;
@@ -33,6 +34,8 @@ pub(crate) struct ModeSet {
     pub(crate) frequencies: Vec<Frequencies>,
     pub(crate) notices: Vec<Notice>,
     pub(crate) variance: f64,
+    /// What queries sum, if they do.
+    pub(crate) largest: Option<Largest>,
 }
 
 impl ModeSet {
@@ -71,6 +74,10 @@ impl ModeSet {
             bands: modes.iter().map(|modes| Band::of(modes, modes)).collect(),
             frequencies: modes.iter().map(|modes| Frequencies::of(modes, modes, desc.loop_time)).collect(),
             variance: modes.iter().map(CascadeModes::variance).sum(),
+            largest: match desc.queries {
+                Queries::Arrays => None,
+                Queries::Largest(count) => Some(Largest::new(&modes, desc.loop_time, count)),
+            },
             desc,
             spectra,
             modes,
