@@ -9,11 +9,13 @@ mod grid_phase;
 mod grid_shore;
 mod grid_step;
 mod harbour;
+mod ocean_buoy;
 mod ocean_fft;
 mod ocean_gpu;
 mod ocean_height;
-mod ocean_sea;
+mod ocean_repeat;
 mod ocean_time;
+mod ocean_variance;
 mod rapier;
 
 use crate::evidence::Case;
@@ -22,11 +24,14 @@ use crate::evidence::Case;
 pub const CASES: &[Case] = &[
     ocean_fft::CPU,
     ocean_gpu::GPU,
-    ocean_fft::VARIANCE,
     ocean_time::PHASE,
     ocean_time::RATE,
     ocean_time::CHANGE,
-    ocean_sea::HS,
+    ocean_variance::VARIANCE,
+    ocean_variance::HS,
+    ocean_buoy::TP,
+    ocean_buoy::MOMENTS,
+    ocean_repeat::REPEAT,
     ocean_height::QUERIES,
     grid_phase::PHASE,
     grid_border::PML,

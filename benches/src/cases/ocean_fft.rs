@@ -1,4 +1,4 @@
-//! Cases `fft_cpu` (the cascades' fields against a direct sum) and `lost_variance` (what small FFTs leave out).
+//! Case `fft_cpu`: the cascades' fields against a direct sum.
 
 use std::{hint::black_box, sync::Arc, time::Instant};
 
@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use rustfft::{Fft, FftPlanner, num_complex::Complex32};
 
 use crate::{
-    evidence::{Axis, Case, CaseError, Context, Effort, Plot, Row, measure, measure_together},
+    evidence::{Axis, Case, CaseError, Context, Effort, Plot, Row, measure_together},
     fixtures::{self, Random},
-    truth::{Fields, Jonswap, Waves},
+    truth::{Fields, Waves},
 };
 
 /// See the module.
@@ -24,20 +24,6 @@ pub(super) const CPU: Case = Case {
         label: None,
     }],
     run: cpu,
-};
-
-/// See the module.
-pub(super) const VARIANCE: Case = Case {
-    name: "lost_variance",
-    about: "share of the sea's variance that the cascades do not hold, by FFT size",
-    plots: &[Plot {
-        file: "lost_variance",
-        title: "Variance left out against the time of a synthesis (beside the points: FFT size)",
-        x: Axis::Time,
-        y: Axis::Error,
-        label: Some("size"),
-    }],
-    run: variance,
 };
 
 /// Texels that are compared in each cascade.
@@ -154,38 +140,6 @@ pub(super) fn compare(ocean: &Ocean, c: usize, made: impl Fn(usize) -> Fields + 
         let sum = |which: usize| sums.iter().map(|sums| sums[which][i]).sum::<f64>();
         (sum(0) / sum(1)).sqrt()
     })
-}
-
-fn variance(context: &Context) -> Result<Vec<Row>, CaseError> {
-    let truth = Jonswap::new(f64::from(fixtures::WIND), f64::from(fixtures::FETCH)).variance();
-    let mut rows = Vec::new();
-    for &size in context.pick(&[32, 64, 128, 256][..], &[32, 64, 128, 256, 512, 1024]) {
-        let mut ocean = Ocean::new(fixtures::ocean(size))?;
-        let lost = 100.0 * (1.0 - made_variance(&ocean) / truth);
-        let mut time = 0.0;
-        let timing = measure(context.effort, || {
-            time += 1.0 / 60.0;
-            ocean.set_time(black_box(time));
-            ocean.prepare(Outputs::ALL);
-        });
-        rows.push(
-            Row::new("lost_variance", "three cascades")
-                .param("size", size)
-                .error(lost.abs(), "%", "integral of the JONSWAP spectrum")
-                .time("twelve fields of every cascade at a new time", &timing),
-        );
-    }
-    Ok(rows)
-}
-
-/// Variance of the heights at the time held, m^2.
-pub(super) fn made_variance(ocean: &Ocean) -> f64 {
-    (0..ocean.modes().len())
-        .map(|c| {
-            let heights = ocean.displacement(c);
-            heights.iter().map(|texel| f64::from(texel[1]).powi(2)).sum::<f64>() / heights.len() as f64
-        })
-        .sum()
 }
 
 /// The transforms alone, as one writes them with rustfft.

@@ -7,7 +7,7 @@ use crate::{CascadeDesc, OceanDesc, SeaState, WaveSpectrum, dispersion};
 
 /// Share of the variance in the waves of the first tile. The surface correlates with itself, one of the smaller tiles
 /// further on, by about the rest; beyond 2 km, where the first tile ends if its cells allow, by this.
-const FIRST: f64 = 0.68;
+const FIRST: f64 = 0.66;
 /// Share of the variance in waves so long that the first tile need not be 2.5 times as long.
 const LONG: f64 = 0.01;
 /// Side of the first tile beyond which its repetition is no concern, metres.
@@ -23,10 +23,10 @@ const MOST: usize = 8;
 impl OceanDesc {
     /// A description whose tiles suit the sea, all of `size` texels a side (a power of two from 32 to 1,024): the height
     /// and period of the sea are right whatever its waves' length, waves down to 10 cm are held (to a fiftieth of the main
-    /// waves' length if that is less; with 64 texels or fewer not that far in a long sea), and it repeats little: the first tile takes .7 of
-    /// the variance and is 2 km long or, where the size does not allow that, as long as it does (about 33 peak
-    /// wavelengths for 256 texels); the second takes nearly all of the rest, and the ratio of the two is far from whole.
-    /// Waves of 250 m and more stand on one tile of 2 km or more.
+    /// waves' length if that is less; with 64 texels or fewer not that far in a long sea), and it repeats little: the
+    /// first tile takes two thirds of the variance and is 2 km long or, where the size does not allow that, as long as it
+    /// does (34 peak wavelengths for 256 texels); the second takes nearly all of the rest, and the ratio of the two is far
+    /// from whole. Waves of 250 m and more stand on one tile of 2 km or more.
     ///
     /// For 256 texels it takes three to five cascades, mostly four. The tiles depend on the size: for a
     /// server of the same sea with smaller transforms, lessen the sizes of the cascades made for the client.
