@@ -12,7 +12,8 @@ mod harbour;
 mod ocean_buoy;
 mod ocean_fft;
 mod ocean_gpu;
-mod ocean_height;
+mod ocean_kernel;
+mod ocean_query;
 mod ocean_repeat;
 mod ocean_time;
 mod ocean_variance;
@@ -32,7 +33,10 @@ pub const CASES: &[Case] = &[
     ocean_buoy::TP,
     ocean_buoy::MOMENTS,
     ocean_repeat::REPEAT,
-    ocean_height::QUERIES,
+    ocean_query::QUERY,
+    ocean_query::PATCHES,
+    ocean_kernel::INTERPOLATION,
+    ocean_kernel::LARGEST,
     grid_phase::PHASE,
     grid_border::PML,
     grid_border::SHIFT,
