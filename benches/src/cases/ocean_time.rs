@@ -85,45 +85,22 @@ fn exact_turns(n: u32, t: f64, period: f64) -> f64 {
     (rest as f64) / (whole as f64)
 }
 
-/// How a state is made from its neighbours in time.
-#[derive(Clone, Copy)]
-enum Between {
-    /// Of two, each field for itself.
-    Linear,
-    /// Of four, each field for itself (Lagrange).
-    Cubic,
+/// Lagrange's weights at a fraction of the interval between the middle two of four states.
+fn cubic(x: f32) -> [f32; 4] {
+    [
+        -x * (x - 1.0) * (x - 2.0) / 6.0,
+        (x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0,
+        -(x + 1.0) * x * (x - 2.0) / 2.0,
+        (x + 1.0) * x * (x - 1.0) / 6.0,
+    ]
 }
 
-impl Between {
-    /// Weights at a fraction of the interval between the middle two of four states.
-    fn weights(self, x: f32) -> [f32; 4] {
-        match self {
-            Self::Linear => [0.0, 1.0 - x, x, 0.0],
-            Self::Cubic => [
-                -x * (x - 1.0) * (x - 2.0) / 6.0,
-                (x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0,
-                -(x + 1.0) * x * (x - 2.0) / 2.0,
-                (x + 1.0) * x * (x - 1.0) / 6.0,
-            ],
-        }
-    }
-
-    /// All fields between four states.
-    fn mix(self, x: f32, states: &[Vec<f32>; 4], out: &mut [f32]) {
-        let [a, b, c, d] = self.weights(x);
-        match self {
-            Self::Linear => {
-                for ((out, q), r) in out.iter_mut().zip(&states[1]).zip(&states[2]) {
-                    *out = b * q + c * r;
-                }
-            }
-            Self::Cubic => {
-                let states = states[0].iter().zip(&states[1]).zip(states[2].iter().zip(&states[3]));
-                for (out, ((p, q), (r, s))) in out.iter_mut().zip(states) {
-                    *out = a * p + b * q + c * r + d * s;
-                }
-            }
-        }
+/// All fields between four states.
+fn mix_four(x: f32, states: &[Vec<f32>; 4], out: &mut [f32]) {
+    let [a, b, c, d] = cubic(x);
+    let states = states[0].iter().zip(&states[1]).zip(states[2].iter().zip(&states[3]));
+    for (out, ((p, q), (r, s))) in out.iter_mut().zip(states) {
+        *out = a * p + b * q + c * r + d * s;
     }
 }
 
@@ -135,47 +112,66 @@ fn state(ocean: &mut Ocean, t: f64) -> Vec<f32> {
 }
 
 fn update_rate(context: &Context) -> Result<Vec<Row>, CaseError> {
-    let mut ocean = Ocean::new(fixtures::ocean(256))?;
-    let hs = f64::from(ocean.significant_height());
+    /// Ticks that are timed together: whole intervals.
+    const TICKS: u32 = 60;
+    let mut exact = Ocean::new(fixtures::ocean(256))?;
+    let hs = f64::from(exact.significant_height());
     let mut random = Random::new(8);
-    let starts: Vec<f64> = (0..context.pick(3, 12)).map(|_| random.within(0.0, 1000.0)).collect();
-    let (mut out, mut time) = (state(&mut ocean, 0.0), 0.0);
-    let states = [0.0, 0.1, 0.2, 0.3].map(|t| state(&mut ocean, t));
-    let mut other = out.clone();
-    let [whole, two, four] = measure_together(
-        context.effort,
-        [
-            &mut || {
-                time += TICK;
-                ocean.set_time(time);
-                black_box(ocean.fields(0));
-            },
-            &mut || Between::Linear.mix(black_box(0.3), &states, black_box(&mut out)),
-            &mut || Between::Cubic.mix(black_box(0.3), &states, black_box(&mut other)),
-        ],
-    );
+    let starts: Vec<f64> = (0..context.pick(3, 12)).map(|_| (10.0 * random.within(0.0, 1000.0)).round()).collect();
+    let rms = |truth: &[f32], made: &[f32]| {
+        let heights = truth.iter().zip(made).skip(1).step_by(4).take(256 * 256);
+        heights.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / 65_536.0
+    };
+    let mut out = state(&mut exact, 0.0);
     let mut rows = Vec::new();
-    for (name, between, mix) in [("two states", Between::Linear, two), ("four states", Between::Cubic, four)] {
-        for states_per_second in [30.0, 20.0, 15.0, 10.0, 6.0] {
-            let interval = 1.0 / states_per_second;
-            let mut square = 0.0;
-            for start in &starts {
-                let states = [-1.0, 0.0, 1.0, 2.0].map(|i| state(&mut ocean, start + i * interval));
-                // The error is largest half way.
-                between.mix(0.5, &states, &mut out);
-                let truth = state(&mut ocean, start + 0.5 * interval);
-                let heights = truth.iter().zip(&out).skip(1).step_by(4).take(256 * 256);
-                square += heights.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / 65_536.0;
+    for &states_per_second in context.pick(&[20.0, 10.0, 6.0][..], &[30.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0]) {
+        // As the library numbers its states: as many whole ones as fill the loop.
+        let interval = 1.0 / states_per_second;
+        let mut desc = fixtures::ocean(256);
+        desc.cascades[0].interval = interval as f32;
+        let count = (desc.loop_time / f64::from(interval as f32)).ceil();
+        let step = desc.loop_time / count;
+        let mut slow = Ocean::new(desc)?;
+        let (mut two, mut four) = (0.0, 0.0);
+        for start in &starts {
+            // The error is largest half way.
+            let half_way = (start + 0.5) * step;
+            let truth = state(&mut exact, half_way);
+            two += rms(&truth, &state(&mut slow, half_way)) / starts.len() as f64;
+            let states = [-1.0, 0.0, 1.0, 2.0].map(|i| state(&mut exact, (start + i) * step));
+            mix_four(0.5, &states, &mut out);
+            four += rms(&truth, &out) / starts.len() as f64;
+        }
+        let states = [0.0, 1.0, 2.0, 3.0].map(|i| state(&mut exact, i * step));
+        let mut times = [0.0; 2];
+        let run = |ocean: &mut Ocean, time: &mut f64| {
+            for _ in 0..TICKS {
+                *time += TICK;
+                ocean.set_time(*time);
+                black_box(ocean.fields(0));
             }
-            let error = 100.0 * (square / starts.len() as f64).sqrt() / hs;
-            // A state now and then, and the mix at every tick.
-            let mut timing = mix;
-            timing.median_ns += whole.median_ns * states_per_second * TICK;
+        };
+        let [a, b] = &mut times;
+        let [whole, slow, mix] = measure_together(
+            context.effort,
+            [&mut || run(&mut exact, a), &mut || run(&mut slow, b), &mut || {
+                mix_four(black_box(0.3), &states, black_box(&mut out));
+            }],
+        );
+        let (whole, slow) = (whole.per(TICKS.into()), slow.per(TICKS.into()));
+        // A state now and then, and the mix at every tick.
+        let mut cubic = mix;
+        cubic.median_ns += whole.median_ns * states_per_second * TICK;
+        for (name, error, timing) in [("two states (the library)", two, slow), ("four states", four, cubic)] {
             rows.push(
                 Row::new("update_rate", name)
                     .param("states_per_second", states_per_second)
-                    .error(error, "% of Hs", "the cascade made at that time; heights half way between states, RMS")
-                    .time("the mix, and the share of a state that falls on a tick", &timing)
+                    .error(
+                        100.0 * error.sqrt() / hs,
+                        "% of Hs",
+                        "the cascade made at that time; heights half way between states, RMS",
+                    )
+                    .time("a tick of 1/60 s, mean", &timing)
                     .baseline("the cascade made at every tick", &whole),
             );
         }

