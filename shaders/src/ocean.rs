@@ -9,6 +9,7 @@
 use bytemuck::{Pod, Zeroable};
 
 pub use crate::surface::MAX_CASCADES;
+use crate::surface::{CHOP_LEAST_SLOPE, SurfaceCascade};
 use crate::{Pass, param_layout, turns};
 
 /// Smallest side of a cascade, cells.
@@ -34,6 +35,8 @@ pub struct OceanCascade {
     pub foam_share: f32,
     /// Rows and columns `0..half` and `N - half + 1..N` of the cells may hold modes; at most N/2.
     pub half: u32,
+    /// Where it lies.
+    pub place: SurfaceCascade,
 }
 
 /// Uniform of the ocean's passes.
@@ -57,7 +60,8 @@ pub struct OceanParams {
 }
 
 const PARAMS: &[crate::ParamLayout] = &[
-    param_layout!(OceanCascade { wave_step, foam_spread, foam_share, half }),
+    param_layout!(SurfaceCascade { offset, tile, size }),
+    param_layout!(OceanCascade { wave_step, foam_spread, foam_share, half, place }),
     param_layout!(OceanParams { phase, weight, cascade_count, choppiness, foam_threshold, foam_decay, cascades }),
 ];
 
@@ -137,9 +141,10 @@ fn line_constants() -> String {
     .concat()
 }
 
+const PARAMS_TEXT: &str =
+    concat!(include_str!("../wgsl/shared/cascade.wgsl"), include_str!("../wgsl/shared/ocean.wgsl"));
 const FFT_TEXT: &str = concat!(
     include_str!("../wgsl/shared/turns.wgsl"),
-    include_str!("../wgsl/shared/ocean.wgsl"),
     include_str!("../wgsl/shared/ocean_place.wgsl"),
     include_str!("../wgsl/shared/fft.wgsl"),
     include_str!("../wgsl/shared/fft_last.wgsl"),
@@ -153,7 +158,7 @@ const MODES_TEXT: &str = include_str!("../wgsl/shared/ocean_modes.wgsl");
 pub const ROWS: Pass = Pass {
     name: "ocean_rows",
     constants: line_constants,
-    parts: &[FFT_TEXT, LINE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_rows.wgsl")],
+    parts: &[PARAMS_TEXT, FFT_TEXT, LINE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_rows.wgsl")],
     entry_points: &["ocean_rows"],
     params: PARAMS,
 };
@@ -162,7 +167,7 @@ pub const ROWS: Pass = Pass {
 pub const COLUMNS: Pass = Pass {
     name: "ocean_columns",
     constants: line_constants,
-    parts: &[FFT_TEXT, LINE_TEXT, include_str!("../wgsl/ocean_columns.wgsl")],
+    parts: &[PARAMS_TEXT, FFT_TEXT, LINE_TEXT, include_str!("../wgsl/ocean_columns.wgsl")],
     entry_points: &["ocean_columns"],
     params: PARAMS,
 };
@@ -171,7 +176,7 @@ pub const COLUMNS: Pass = Pass {
 pub const FIRST: Pass = Pass {
     name: "ocean_first",
     constants: first_constants,
-    parts: &[FFT_TEXT, WIDE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_first.wgsl")],
+    parts: &[PARAMS_TEXT, FFT_TEXT, WIDE_TEXT, MODES_TEXT, include_str!("../wgsl/ocean_first.wgsl")],
     entry_points: &["ocean_first"],
     params: PARAMS,
 };
@@ -180,7 +185,7 @@ pub const FIRST: Pass = Pass {
 pub const STAGE: Pass = Pass {
     name: "ocean_stage",
     constants: stage_constants,
-    parts: &[FFT_TEXT, WIDE_TEXT, include_str!("../wgsl/ocean_stage.wgsl")],
+    parts: &[PARAMS_TEXT, FFT_TEXT, WIDE_TEXT, include_str!("../wgsl/ocean_stage.wgsl")],
     entry_points: &["ocean_stage"],
     params: PARAMS,
 };
@@ -189,7 +194,7 @@ pub const STAGE: Pass = Pass {
 pub const LOOKS: Pass = Pass {
     name: "ocean_looks",
     constants,
-    parts: &[include_str!("../wgsl/shared/ocean.wgsl"), include_str!("../wgsl/ocean_looks.wgsl")],
+    parts: &[PARAMS_TEXT, include_str!("../wgsl/ocean_looks.wgsl")],
     entry_points: &["ocean_looks"],
     params: PARAMS,
 };
@@ -203,5 +208,46 @@ pub const MIPS: Pass = Pass {
     params: &[],
 };
 
+const SURFACE_TEXT: &str =
+    concat!(include_str!("../wgsl/shared/gradient.wgsl"), include_str!("../wgsl/shared/ocean_surface.wgsl"));
+
+fn surface_constants(group: u32) -> String {
+    format!(
+        "{}const CHOP_LEAST_SLOPE: f32 = {CHOP_LEAST_SLOPE};\n\
+         @group({group}) @binding(0) var<uniform> open_water_sea: OceanParams;\n\
+         @group({group}) @binding(1) var open_water_displacement: texture_2d_array<f32>;\n\
+         @group({group}) @binding(2) var open_water_derivative: texture_2d_array<f32>;\n\
+         @group({group}) @binding(3) var open_water_sampler: sampler;\n",
+        constants()
+    )
+}
+
+/// WGSL with `open_water_surface`, its bind group at index `group`, for a game that has the sea alone.
+pub fn surface_wgsl(group: u32) -> String {
+    [&surface_constants(group), PARAMS_TEXT, SURFACE_TEXT].join("\n")
+}
+
+/// Layout of the bind group of [`surface_wgsl`], for vertex, fragment and compute stages.
+#[cfg(feature = "gpu")]
+pub fn surface_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    use crate::pipeline::Slot;
+    let looks = Slot::TextureArray { filterable: true };
+    crate::pipeline::group_layout(
+        device,
+        "sea",
+        wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        &[Slot::Uniform { size: size_of::<OceanParams>() }, looks, looks, Slot::Sampler],
+    )
+}
+
+/// Answers of `open_water_surface` for a list of points, to compare them with the CPU's.
+pub const SURFACE_PROBE: Pass = Pass {
+    name: "ocean_surface_probe",
+    constants: || surface_constants(0),
+    parts: &[PARAMS_TEXT, SURFACE_TEXT, include_str!("../wgsl/ocean_surface_probe.wgsl")],
+    entry_points: &["ocean_surface_probe"],
+    params: PARAMS,
+};
+
 /// The passes of this area.
-pub const PASSES: &[Pass] = &[ROWS, COLUMNS, FIRST, STAGE, LOOKS, MIPS];
+pub const PASSES: &[Pass] = &[ROWS, COLUMNS, FIRST, STAGE, LOOKS, MIPS, SURFACE_PROBE];

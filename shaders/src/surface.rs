@@ -161,6 +161,8 @@ pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 /// WGSL of the composite surface without its bindings.
 pub const TEXT: &str = concat!(
     include_str!("../wgsl/shared/cubic.wgsl"),
+    include_str!("../wgsl/shared/cascade.wgsl"),
+    include_str!("../wgsl/shared/gradient.wgsl"),
     include_str!("../wgsl/shared/surface.wgsl"),
     include_str!("../wgsl/shared/land.wgsl"),
     include_str!("../wgsl/shared/land_factors.wgsl"),

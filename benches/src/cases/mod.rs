@@ -12,11 +12,13 @@ mod harbour;
 mod ocean_buoy;
 mod ocean_fft;
 mod ocean_gpu;
+mod ocean_gpu_speed;
 mod ocean_kernel;
 mod ocean_query;
 mod ocean_repeat;
 mod ocean_time;
 mod ocean_variance;
+mod ocean_view;
 mod rapier;
 
 use crate::evidence::Case;
@@ -25,6 +27,10 @@ use crate::evidence::Case;
 pub const CASES: &[Case] = &[
     ocean_fft::CPU,
     ocean_gpu::GPU,
+    ocean_gpu_speed::SPEED,
+    ocean_gpu_speed::PASSES,
+    ocean_view::SEAS,
+    ocean_view::VIEW,
     ocean_time::PHASE,
     ocean_time::RATE,
     ocean_time::CHANGE,

@@ -37,7 +37,8 @@ impl Timing {
         Self { median_ns: self.median_ns / count, spread_ns: self.spread_ns / count, ..self }
     }
 
-    fn of(mut samples: Vec<f64>) -> Self {
+    /// Median and spread of samples in nanoseconds, one at least.
+    pub fn of(mut samples: Vec<f64>) -> Self {
         samples.sort_by(f64::total_cmp);
         let at = |q: f64| {
             let place = q * (samples.len() - 1) as f64;

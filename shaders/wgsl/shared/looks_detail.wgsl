@@ -14,7 +14,7 @@ fn ripple_slope(rest: vec2<f32>, footprint: f32) -> vec2<f32> {
     }
     let turned = vec2<f32>(0.92 * rest.x - 0.39 * rest.y, 0.39 * rest.x + 0.92 * rest.y);
     let uv = turned * (5.3 / cascade.tile);
-    let level = max(looks_level(c, footprint * 5.3), 0.0);
+    let level = max(cascade_level(cascade, footprint * 5.3), 0.0);
     let d = textureSampleLevel(looks_derivative, looks_sampler, uv, c, level).xy;
     return vec2<f32>(0.92 * d.x + 0.39 * d.y, 0.92 * d.y - 0.39 * d.x) * (0.4 * (1.0 - footprint / texel));
 }

@@ -7,6 +7,7 @@ struct OceanCascade {
     foam_share: f32,
     // Rows and columns `0..half` and `N - half + 1..N` may hold modes, at most N/2.
     half: u32,
+    place: SurfaceCascade,
 }
 
 struct OceanParams {

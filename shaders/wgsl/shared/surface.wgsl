@@ -1,9 +1,3 @@
-struct SurfaceCascade {
-    offset: vec2<f32>,
-    tile: f32,
-    size: f32,
-}
-
 struct SurfaceGrid {
     corner: vec2<f32>,
     cell_size: f32,

@@ -4,14 +4,6 @@ struct SurfacePoint {
     rest: vec2<f32>,
 }
 
-// The surface's gradient by rest coordinates.
-struct Gradient {
-    // (dh/dx, dh/dz, dDx/dx, dDz/dz)
-    d: vec4<f32>,
-    // (dDx/dz, dDz/dx): equal but for what the land's factors add.
-    cross: vec2<f32>,
-}
-
 // A place found: the displacement there and its rest point.
 struct Found {
     rest: vec2<f32>,
@@ -35,14 +27,6 @@ fn gradient_at(rest: vec2<f32>, cross: f32) -> Gradient {
         }
     }
     return g;
-}
-
-// Slope of the ambient sea in world coordinates. Where the surface is compressed more, it counts as compressed by
-// CHOP_LEAST_SLOPE, so that slopes stay finite at folds.
-fn world_slope(g: Gradient) -> vec2<f32> {
-    let s = vec2<f32>((1.0 + g.d.w) * g.d.x - g.cross.y * g.d.y, (1.0 + g.d.z) * g.d.y - g.cross.x * g.d.x);
-    let compression = (1.0 + g.d.z) * (1.0 + g.d.w) - g.cross.x * g.cross.y;
-    return s / max(compression, CHOP_LEAST_SLOPE);
 }
 
 // The step at rest that moves the surface by `miss`, by Newton's method.

@@ -9,6 +9,7 @@ mod grid_medium;
 mod grid_step;
 mod ocean_fields;
 mod ocean_looks;
+mod ocean_surface;
 mod readback;
 mod shaders;
 mod surface;

@@ -18,18 +18,21 @@ mod foam;
 mod looks;
 mod modes;
 mod stages;
+mod surface;
 mod synthesis;
 mod upload;
 
 use std::ops::Range;
 
 use open_water_shaders::ocean::{MAX_CASCADES, OceanCascade, OceanParams};
+use open_water_shaders::surface::SurfaceCascade;
 
 use crate::Ocean;
 pub use error::GpuError;
 use foam::Divergence;
 pub use foam::{FOAM_SECONDS, FOAM_THRESHOLD};
 use looks::Looks;
+pub use surface::{surface_layout, surface_wgsl};
 pub use synthesis::FftKernel;
 use synthesis::Synthesis;
 use upload::Shape;
@@ -115,7 +118,11 @@ impl GpuOcean {
         };
         let known = ocean.modes().iter().zip(self.divergence.cascades(&moment)).zip(&self.synthesis.halves);
         for (cascade, ((modes, (foam_spread, foam_share)), &half)) in params.cascades.iter_mut().zip(known) {
-            *cascade = OceanCascade { wave_step: modes.step() as f32, foam_spread, foam_share, half };
+            let place = SurfaceCascade { offset: [0.0; 2], tile: modes.tile, size: self.shape.size as f32 };
+            *cascade = OceanCascade { wave_step: modes.step() as f32, foam_spread, foam_share, half, place };
+        }
+        for (c, cascade) in (0..ocean.modes().len()).zip(&mut params.cascades) {
+            cascade.place.offset = ocean.offset(c).into();
         }
         queue.write_buffer(&self.params_buffer, 0, bytemuck::bytes_of(&params));
     }

@@ -1,0 +1,248 @@
+//! Cases `fft_gpu_speed` (the GPU's synthesis against recorded peers) and `gpu_passes` (what each dispatch moves).
+
+use std::sync::Arc;
+
+use ocean_spectrum::gpu::GpuOcean;
+use ocean_spectrum::{CascadeDesc, Ocean, OceanDesc};
+use rayon::prelude::*;
+use rustfft::{Fft, FftPlanner, num_complex::Complex32};
+
+use crate::{
+    evidence::{Axis, Case, CaseError, Context, Effort, Gpu, Plot, Row, Timing, measure_together},
+    fixtures,
+};
+
+/// See the module.
+pub(super) const SPEED: Case = Case {
+    name: "fft_gpu_speed",
+    about: "four packed spectra of a cascade on the GPU, against one transform by rustfft on two threads",
+    plots: &[],
+    run: speed,
+};
+
+/// See the module.
+pub(super) const PASSES: Case = Case {
+    name: "gpu_passes",
+    about: "bytes and microseconds of every dispatch of the sea",
+    plots: &[Plot {
+        file: "gpu_passes",
+        title: "Dispatches of the default sea: time against bytes read and written",
+        x: Axis::Param("kib"),
+        y: Axis::Time,
+        label: Some("pass"),
+    }],
+    run: passes,
+};
+
+/// Where they were recorded (Zen 5, 2 threads, lavapipe of Mesa 22.3), rustfft took .08 and .70 ms for one transform of
+/// 256^2 and 512^2, VkFFT 1.1 to 1.3 and 4.3 to 4.6 ms: half of four times the middle. GodotOceanWaves' own
+/// two passes took 6 to 13 times a plain kernel's 1.7 to 2.3 and 8.4 to 12.6 ms for four: a sixth of the middles'
+/// product is 40 and 24, so that VkFFT is the stricter of the two.
+const BOUNDS: [(u32, f64); 2] = [(256, 2.0 * 1.2 / 0.08), (512, 2.0 * 4.45 / 0.70)];
+
+/// A sea whose one cascade holds modes in every row.
+fn full(size: u32) -> OceanDesc {
+    OceanDesc { cascades: vec![CascadeDesc::new(size, 72.4)], ..fixtures::ocean(size) }
+}
+
+fn speed(context: &Context) -> Result<Vec<Row>, CaseError> {
+    let gpu = context.gpu()?;
+    let is_cpu = gpu.adapter.kind == "Cpu";
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;
+    let mut rows = Vec::new();
+    for (size, bound) in BOUNDS {
+        let mut plain = Plain::new(size as usize);
+        let seas = [
+            (fixtures::ocean(size), "whole synthesis, mean of the default cascades"),
+            (full(size), "whole synthesis, modes in every row"),
+        ];
+        for (desc, variant) in seas {
+            let ocean = Ocean::new(desc)?;
+            let count = ocean.modes().len() as f64;
+            let mut gpu_ocean = GpuOcean::new(&gpu.device, &ocean)?;
+            let passes = gpu_ocean.field_passes().len();
+            // The two dispatches along z, of one cascade: rows without modes aside, those along x cost the same.
+            let transforms = (count == 1.0).then_some(passes.saturating_sub(2)..passes);
+            let [whole, alone, theirs] =
+                pool.install(|| compare(context.effort, gpu, &mut gpu_ocean, &ocean, transforms.clone(), &mut plain));
+            let row = |variant: &str, timing: &Timing| {
+                Row::new("fft_gpu_speed", variant)
+                    .param("size", size)
+                    .param("adapter", gpu.adapter.kind.clone())
+                    .error(
+                        timing.median_ns / theirs.median_ns,
+                        "of rustfft's time",
+                        "one complex transform by rustfft, 2 threads",
+                    )
+                    .time("four packed spectra of one cascade: encode, submit, wait", timing)
+                    .baseline(
+                        "one complex transform by rustfft: rows, then a gather of 16 columns at a time, 2 threads",
+                        &theirs,
+                    )
+            };
+            let whole = row(variant, &whole.per(count));
+            rows.push(if is_cpu && count > 1.0 {
+                whole.bound(bound).note("bound: twice VkFFT's speed where both were recorded on lavapipe")
+            } else {
+                whole
+            });
+            if transforms.is_some() {
+                rows.push(
+                    row("transforms alone, modes in every row", &alone.per(0.5)).note("twice the dispatches along z"),
+                );
+            }
+        }
+    }
+    Ok(rows)
+}
+
+/// Times of the whole synthesis, of some dispatches, and of rustfft.
+fn compare(
+    effort: Effort,
+    gpu: &Gpu,
+    gpu_ocean: &mut GpuOcean,
+    ocean: &Ocean,
+    some: Option<std::ops::Range<usize>>,
+    plain: &mut Plain,
+) -> [Timing; 3] {
+    let mut time = 0.0;
+    let mut made = GpuOcean::new(&gpu.device, ocean).ok();
+    if let Some(made) = &mut made {
+        made.set_time(&gpu.queue, ocean, 0.0, 0.0);
+    }
+    measure_together(
+        effort,
+        [
+            &mut || {
+                time += 1.0 / 60.0;
+                let _ = gpu.run(|encoder| gpu_ocean.encode_fields(&gpu.queue, encoder, ocean, time));
+            },
+            &mut || {
+                let (Some(some), Some(made)) = (&some, &made) else { return };
+                let _ = gpu.run(|encoder| {
+                    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                    some.clone().for_each(|i| made.record_one(&mut pass, i));
+                });
+            },
+            &mut || plain.run(),
+        ],
+    )
+}
+
+fn passes(context: &Context) -> Result<Vec<Row>, CaseError> {
+    let gpu = context.gpu()?;
+    if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+        return Ok(vec![Row::new("gpu_passes", "no timestamps on this device")]);
+    }
+    let mut rows = Vec::new();
+    for &size in context.pick(&[256][..], &[256, 512]) {
+        let ocean = Ocean::new(fixtures::ocean(size))?;
+        let mut gpu_ocean = GpuOcean::new(&gpu.device, &ocean)?;
+        let passes = [gpu_ocean.field_passes(), gpu_ocean.look_passes()].concat();
+        let times = pass_times(gpu, &mut gpu_ocean, &ocean, passes.len(), context.pick(15, 60))?;
+        for (i, (pass, timing)) in passes.iter().zip(times).enumerate() {
+            rows.push(
+                Row::new("gpu_passes", format!("{i} {} of cascades {:?}", pass.name, pass.cascades))
+                    .param("pass", pass.name)
+                    .param("size", size)
+                    .param("kib", pass.bytes / 1024)
+                    .param("gb_per_s", (pass.bytes as f64 / timing.median_ns * 100.0).round() / 100.0)
+                    .time("one dispatch, by the device's timestamps", &timing),
+            );
+        }
+    }
+    Ok(rows)
+}
+
+/// Times of every dispatch of a sea, by timestamps around a pass of its own.
+fn pass_times(
+    gpu: &Gpu,
+    gpu_ocean: &mut GpuOcean,
+    ocean: &Ocean,
+    count: usize,
+    repeats: u32,
+) -> Result<Vec<Timing>, CaseError> {
+    let ends = 2 * count as u32;
+    let set = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+        label: Some("passes"),
+        ty: wgpu::QueryType::Timestamp,
+        count: ends,
+    });
+    let resolved = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("passes"),
+        size: 8 * u64::from(ends),
+        usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    });
+    let period = f64::from(gpu.queue.get_timestamp_period());
+    let mut samples = vec![Vec::new(); count];
+    for repeat in 0..=repeats {
+        gpu_ocean.set_time(&gpu.queue, ocean, f64::from(repeat), 0.1);
+        gpu.run(|encoder| {
+            for i in 0..count {
+                let at = 2 * i as u32;
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some("one dispatch"),
+                    timestamp_writes: Some(wgpu::ComputePassTimestampWrites {
+                        query_set: &set,
+                        beginning_of_pass_write_index: Some(at),
+                        end_of_pass_write_index: Some(at + 1),
+                    }),
+                });
+                gpu_ocean.record_one(&mut pass, i);
+            }
+            encoder.resolve_query_set(&set, 0..ends, &resolved, 0);
+        })?;
+        // The first run compiles.
+        if repeat > 0 {
+            let ticks: Vec<u64> = gpu
+                .read_buffer(&resolved)?
+                .as_chunks::<2>()
+                .0
+                .iter()
+                .map(|[low, high]| u64::from(low.to_bits()) | u64::from(high.to_bits()) << 32)
+                .collect();
+            for (samples, ends) in samples.iter_mut().zip(ticks.as_chunks::<2>().0) {
+                samples.push(ends[1].wrapping_sub(ends[0]) as f64 * period);
+            }
+        }
+    }
+    Ok(samples.into_iter().map(Timing::of).collect())
+}
+
+/// One transform by rustfft, its rows and then its columns spread over the threads.
+struct Plain {
+    fft: Arc<dyn Fft<f32>>,
+    size: usize,
+    data: Vec<Complex32>,
+    out: Vec<Complex32>,
+}
+
+impl Plain {
+    fn new(size: usize) -> Self {
+        let fft = FftPlanner::new().plan_fft_inverse(size);
+        let mut random = fixtures::Random::new(5);
+        let mut number = || random.within(-1.0, 1.0) as f32;
+        let data = (0..size * size).map(|_| Complex32::new(number(), number())).collect();
+        Self { fft, size, data, out: vec![Complex32::default(); size * size] }
+    }
+
+    fn run(&mut self) {
+        let (fft, size) = (&self.fft, self.size);
+        let blocks = size / rayon::current_num_threads().min(size);
+        self.data.par_chunks_mut(blocks * size).for_each(|rows| {
+            fft.process(rows);
+            // Keeps the numbers from growing over the repeats.
+            rows.iter_mut().for_each(|value| *value *= 1.0 / size as f32);
+        });
+        let data = &self.data;
+        self.out.par_chunks_mut(16 * size).enumerate().for_each(|(block, out)| {
+            for (j, row) in data.chunks_exact(size).enumerate() {
+                for (i, value) in row[16 * block..][..16].iter().enumerate() {
+                    out[i * size + j] = *value;
+                }
+            }
+            fft.process(out);
+        });
+    }
+}
