@@ -29,7 +29,7 @@ pub(super) const PASSES: Case = Case {
         title: "Dispatches of the default sea: time against bytes read and written",
         x: Axis::Param("kib"),
         y: Axis::Time,
-        label: Some("pass"),
+        label: Some("dispatch"),
     }],
     run: passes,
 };
@@ -47,6 +47,7 @@ fn full(size: u32) -> OceanDesc {
 
 fn speed(context: &Context) -> Result<Vec<Row>, CaseError> {
     let gpu = context.gpu()?;
+    let effort = context.effort;
     let is_cpu = gpu.adapter.kind == "Cpu";
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;
     let mut rows = Vec::new();
@@ -64,7 +65,7 @@ fn speed(context: &Context) -> Result<Vec<Row>, CaseError> {
             // The two dispatches along z, of one cascade: rows without modes aside, those along x cost the same.
             let transforms = (count == 1.0).then_some(passes.saturating_sub(2)..passes);
             let [whole, alone, theirs] =
-                pool.install(|| compare(context.effort, gpu, &mut gpu_ocean, &ocean, transforms.clone(), &mut plain));
+                pool.install(|| compare(effort, gpu, &mut gpu_ocean, &ocean, transforms.clone(), &mut plain));
             let row = |variant: &str, timing: &Timing| {
                 Row::new("fft_gpu_speed", variant)
                     .param("size", size)
@@ -130,84 +131,37 @@ fn compare(
 }
 
 fn passes(context: &Context) -> Result<Vec<Row>, CaseError> {
+    /// Times that a dispatch is repeated in a submission, so that what submitting costs can be taken off.
+    const REPEATS: usize = 9;
     let gpu = context.gpu()?;
-    if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
-        return Ok(vec![Row::new("gpu_passes", "no timestamps on this device")]);
-    }
+    let effort = Effort { budget: context.effort.budget / 4, ..context.effort };
     let mut rows = Vec::new();
     for &size in context.pick(&[256][..], &[256, 512]) {
         let ocean = Ocean::new(fixtures::ocean(size))?;
         let mut gpu_ocean = GpuOcean::new(&gpu.device, &ocean)?;
+        gpu.run(|encoder| gpu_ocean.encode(&gpu.queue, encoder, &ocean, 0.0, 0.1))?;
         let passes = [gpu_ocean.field_passes(), gpu_ocean.look_passes()].concat();
-        let times = pass_times(gpu, &mut gpu_ocean, &ocean, passes.len(), context.pick(15, 60))?;
-        for (i, (pass, timing)) in passes.iter().zip(times).enumerate() {
+        for (i, pass) in passes.iter().enumerate() {
+            let run = |repeats: usize| {
+                let _ = gpu.run(|encoder| {
+                    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                    (0..repeats).for_each(|_| gpu_ocean.record_one(&mut pass, i));
+                });
+            };
+            let [once, often] = measure_together(effort, [&mut || run(1), &mut || run(REPEATS)]);
+            let one = (REPEATS - 1) as f64;
+            let timing = Timing { median_ns: (often.median_ns - once.median_ns).max(1.0) / one, ..often.per(one) };
             rows.push(
-                Row::new("gpu_passes", format!("{i} {} of cascades {:?}", pass.name, pass.cascades))
-                    .param("pass", pass.name)
+                Row::new("gpu_passes", format!("{} of cascades {:?}", pass.name, pass.cascades))
+                    .param("dispatch", i)
                     .param("size", size)
                     .param("kib", pass.bytes / 1024)
                     .param("gb_per_s", (pass.bytes as f64 / timing.median_ns * 100.0).round() / 100.0)
-                    .time("one dispatch, by the device's timestamps", &timing),
+                    .time("one dispatch: nine in a submission less one in a submission", &timing),
             );
         }
     }
     Ok(rows)
-}
-
-/// Times of every dispatch of a sea, by timestamps around a pass of its own.
-fn pass_times(
-    gpu: &Gpu,
-    gpu_ocean: &mut GpuOcean,
-    ocean: &Ocean,
-    count: usize,
-    repeats: u32,
-) -> Result<Vec<Timing>, CaseError> {
-    let ends = 2 * count as u32;
-    let set = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
-        label: Some("passes"),
-        ty: wgpu::QueryType::Timestamp,
-        count: ends,
-    });
-    let resolved = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("passes"),
-        size: 8 * u64::from(ends),
-        usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
-        mapped_at_creation: false,
-    });
-    let period = f64::from(gpu.queue.get_timestamp_period());
-    let mut samples = vec![Vec::new(); count];
-    for repeat in 0..=repeats {
-        gpu_ocean.set_time(&gpu.queue, ocean, f64::from(repeat), 0.1);
-        gpu.run(|encoder| {
-            for i in 0..count {
-                let at = 2 * i as u32;
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                    label: Some("one dispatch"),
-                    timestamp_writes: Some(wgpu::ComputePassTimestampWrites {
-                        query_set: &set,
-                        beginning_of_pass_write_index: Some(at),
-                        end_of_pass_write_index: Some(at + 1),
-                    }),
-                });
-                gpu_ocean.record_one(&mut pass, i);
-            }
-            encoder.resolve_query_set(&set, 0..ends, &resolved, 0);
-        })?;
-        // The first run compiles.
-        if repeat > 0 {
-            let ticks: Vec<u64> = gpu
-                .read_buffer(&resolved)?
-                .as_chunks::<2>()
-                .0
-                .iter()
-                .map(|[low, high]| u64::from(low.to_bits()) | u64::from(high.to_bits()) << 32)
-                .collect();
-            for (samples, ends) in samples.iter_mut().zip(ticks.as_chunks::<2>().0) {
-                samples.push(ends[1].wrapping_sub(ends[0]) as f64 * period);
-            }
-        }
-    }
-    Ok(samples.into_iter().map(Timing::of).collect())
 }
 
 /// One transform by rustfft, its rows and then its columns spread over the threads.

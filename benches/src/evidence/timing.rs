@@ -37,8 +37,7 @@ impl Timing {
         Self { median_ns: self.median_ns / count, spread_ns: self.spread_ns / count, ..self }
     }
 
-    /// Median and spread of samples in nanoseconds, one at least.
-    pub fn of(mut samples: Vec<f64>) -> Self {
+    fn of(mut samples: Vec<f64>) -> Self {
         samples.sort_by(f64::total_cmp);
         let at = |q: f64| {
             let place = q * (samples.len() - 1) as f64;
