@@ -14,9 +14,9 @@ use crate::Ocean;
 pub enum FftKernel {
     /// Whole lines in workgroup memory: 2 dispatches for all cascades. For GPUs.
     Lines,
-    /// A dispatch per stage from texture to texture, without workgroup memory: 2 for each direction (1 up to 32 texels);
-    /// cascades that are filled differently do not share them. For adapters that run on the CPU, where reads from
-    /// buffers and workgroup memory are slow, and a branch does not spare work.
+    /// A dispatch per stage from texture to texture, without workgroup memory: 2 for each direction (1 up to 32 texels, 3
+    /// along z at 1,024); cascades that are filled differently do not share them. For adapters that run on the CPU,
+    /// where reads from buffers and workgroup memory are slow, and a branch does not spare work.
     Stages,
 }
 
