@@ -100,7 +100,8 @@ const DIR: &str = "#YY  MM DD hh mm alpha1_1 (freq_1) ... >\n\
     2026 11 22 06 40 999.0 (0.033) 270.0 (0.083) 270.0 (0.093) 180.0 (0.120) 999.0 (0.200)\n\
     2026 11 22 05 40 90.0 (0.033) 90.0 (0.083) 90.0 (0.093) 90.0 (0.120) 90.0 (0.200)\n";
 const R1: &str = "#YY  MM DD hh mm r1_1 (freq_1) ... >\n\
-    2026 11 22 06 40 999.0 (0.033) 0.90 (0.083) 0.90 (0.093) 0.80 (0.120) 0.50 (0.200)\n";
+    2026 11 22 06 40 999.0 (0.033) 0.90 (0.083) 0.90 (0.093) 0.80 (0.120) 0.50 (0.200)\n\
+    2026 11 22 05 40 0.10 (0.033) 0.10 (0.083) 0.10 (0.093) 0.10 (0.120) 0.10 (0.200)\n";
 
 #[test]
 fn the_newest_spectrum_of_a_buoy_is_read() {
@@ -122,7 +123,7 @@ fn bad_buoy_files_are_told_why() {
         (said("", DIR, R1), "data_spec, line 1: found no row"),
         (said(SPEC, "# only this\n", R1), "swdir, line 2: found no row"),
         (said(SPEC, DIR, "2026 11 22 06 40"), "swr1, line 1: found no values"),
-        (said(&SPEC.replace("06 40", "03 40"), DIR, R1), "data_spec, line 2: found no time"),
+        (said(&SPEC.replace("2026 11", "2026 10"), DIR, R1), "data_spec, line 2: found no time"),
         (said(&SPEC.replace("(0.083)", "0.083"), DIR, R1), "data_spec, line 2: found `0.083` after `1.500`"),
         (said(&SPEC.replace("(0.083)", "(0.033)"), DIR, R1), "data_spec, line 2: found frequency 0.033 after 0.033"),
         (said(&SPEC.replace("1.500", "-1"), DIR, R1), "data_spec, line 2: found value `-1`"),
