@@ -10,9 +10,14 @@ const TABLE: &str = "frequency density direction spread\n.1 1 270 30\n.2 4 270 3
 #[test]
 fn shipped_files_are_what_they_say() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/assets/seas/");
-    for (file, hs, tp) in
-        [("fresh-breeze.txt", 2.139, 6.23), ("moderate.txt", 1.8, 7.0), ("swell-and-wind-sea.txt", 1.92, 12.5)]
-    {
+    for (file, hs, tp) in [
+        ("fresh-breeze.txt", 2.139, 6.23),
+        ("moderate.txt", 1.8, 7.0),
+        ("swell-and-wind-sea.txt", 1.92, 12.5),
+        ("shallow-bay.txt", 2.0364, 7.134),
+        ("crossing-swell.txt", 2.065, 14.0),
+        ("two-seas-by-direction.txt", 2.382, 10.0),
+    ] {
         let spectrum = WaveSpectrum::new(&SeaState::from_file(format!("{folder}{file}")).unwrap()).unwrap();
         assert!((spectrum.significant_height() / hs - 1.0).abs() < 0.02, "{file} {}", spectrum.significant_height());
         assert!((spectrum.peak_period() / tp - 1.0).abs() < 0.03, "{file} {}", spectrum.peak_period());
