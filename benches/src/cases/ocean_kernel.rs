@@ -130,8 +130,8 @@ fn prefilter(line: &mut [f64]) {
     }
     causal /= 1.0 - pole.powi(n as i32);
     let mut forwards = vec![causal];
-    for i in 1..n {
-        causal = line[i] + pole * causal;
+    for value in &line[1..] {
+        causal = value + pole * causal;
         forwards.push(causal);
     }
     let mut back = 0.0;

@@ -40,6 +40,7 @@ mod amplitude;
 #[cfg(test)]
 mod bits;
 mod change;
+mod direct;
 pub mod dispersion;
 mod error;
 mod feed;

@@ -9,9 +9,10 @@ use rayon::prelude::*;
 
 use crate::amplitude::{AmplitudeMap, Placed};
 use crate::change::Segment;
+use crate::direct::{Direct, Part};
 use crate::error::check;
 use crate::kernel::Texels;
-use crate::largest::{Direct, Part, Queries};
+use crate::largest::Queries;
 use crate::layers::{Layer, Layers, View};
 use crate::lazy::{Outputs, Source, Synthesis};
 use crate::modes::Amplitudes;

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec2, Vec2, Vec3};
 use ocean_spectrum::{
-    AmplitudeMap, CascadeDesc, CascadeFactors, Ocean, OceanDesc, OceanSample, SeaState, Spectrum, Spreading, TableRow,
+    AmplitudeMap, CascadeDesc, CascadeFactors, Ocean, OceanDesc, OceanSample, Queries, SeaState, Spectrum, Spreading,
+    TableRow,
 };
 
 fn points(n: u32, side: f32) -> Vec<Vec2> {
@@ -42,7 +43,13 @@ fn hills(place: DVec2) -> CascadeFactors {
 
 #[test]
 fn a_factor_of_one_changes_no_bit() {
-    let mut ocean = sea();
+    for queries in [Queries::Arrays, Queries::Largest(64)] {
+        of_one(Ocean::new(OceanDesc { queries, ..OceanDesc::default() }).unwrap());
+    }
+}
+
+fn of_one(mut ocean: Ocean) {
+    ocean.set_time(31.4);
     let points = points(2000, 400.0);
     let (plain, patches): (_, Vec<_>) =
         (answers(&ocean, &points), points.iter().map(|&p| ocean.patch(p, 0.7)).collect());
@@ -130,10 +137,11 @@ fn slopes_are_those_of_the_heights_on_a_steep_map() {
     // Long waves alone, so that heights and slopes read by the kernel agree; from nothing to all within 12 m.
     let row = |frequency, density| TableRow { frequency, density, direction: 0.5, s: 6.0 };
     let rows = vec![row(0.1, 0.0), row(0.15, 8.0), row(0.25, 0.0)];
-    for choppiness in [0.0, 1.0] {
+    let both = [Queries::Arrays, Queries::Largest(500)];
+    for (choppiness, queries) in [0.0, 1.0].into_iter().flat_map(|chop| both.map(|queries| (chop, queries))) {
         let cascades = vec![CascadeDesc::new(256, 240.0)];
         let sea = SeaState::single(Spectrum::Table(rows.clone()), 0.0, Spreading::BothWays);
-        let mut ocean = Ocean::new(OceanDesc { sea, cascades, choppiness, ..Default::default() }).unwrap();
+        let mut ocean = Ocean::new(OceanDesc { sea, cascades, choppiness, queries, ..Default::default() }).unwrap();
         ocean.set_time(12.0);
         ocean.set_amplitudes(Some(map(4.0, 60, |p| [(0.5 + (p.x + 0.5 * p.y) / 12.0).clamp(0.0, 1.0) as f32; 8])));
         let (mut worst, mut sum, mut n) = (0.0f32, 0.0, 0.0);
