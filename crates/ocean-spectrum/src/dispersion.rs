@@ -80,9 +80,11 @@ mod tests {
         // Lamb, Hydrodynamics, section 267: least speed .232 m/s at 1.73 cm for a tension of .074 N/m.
         let speed = |k: f64| frequency(k, None) / k;
         let lengths = (1..1000).map(|i| 1e-4 * f64::from(i));
-        let slowest = lengths.min_by(|a, b| speed(6.2832 / a).total_cmp(&speed(6.2832 / b))).unwrap();
+        let slowest = lengths
+            .min_by(|a, b| speed(std::f64::consts::TAU / a).total_cmp(&speed(std::f64::consts::TAU / b)))
+            .unwrap();
         assert!((slowest - 0.0171).abs() < 1.1e-4, "{slowest}");
-        assert!((speed(6.2832 / slowest) - 0.2312).abs() < 2e-4);
+        assert!((speed(std::f64::consts::TAU / slowest) - 0.2312).abs() < 2e-4);
         // There the group is as fast as the crests; ripples of 3 mm outrun theirs by half.
         assert!((group_velocity(367.1, None) / speed(367.1) - 1.0).abs() < 1e-3);
         assert!((group_velocity(2000.0, Some(0.5)) / speed(2000.0) - 1.467).abs() < 1e-3);

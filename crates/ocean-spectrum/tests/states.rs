@@ -151,7 +151,8 @@ fn a_table_over_the_plane_means_what_a_formula_does() {
     let sea = SeaState::jonswap(2.0, 8.0, 3.3, 1.0);
     let formula = made(&sea);
     let frequencies: Vec<f32> = (0..150).map(|i| 0.05 * 1.02f32.powi(i)).collect();
-    let directions: Vec<f32> = (0..90).map(|i| -2.0 + (i as f32 + 0.3 * (i as f32).sin()) * 6.2831855 / 90.0).collect();
+    let directions: Vec<f32> =
+        (0..90).map(|i| -2.0 + (i as f32 + 0.3 * (i as f32).sin()) * std::f32::consts::TAU / 90.0).collect();
     let density = |f: f32, a: f32| {
         let k = (TAU * f64::from(f)).powi(2) / GRAVITY;
         let (sin, cos) = f64::from(a).sin_cos();
