@@ -42,7 +42,7 @@ fn points() -> Vec<Vec2> {
     points
 }
 
-#[derive(PartialEq, Debug)]
+#[derive(PartialEq)]
 struct Answers {
     samples: Vec<OceanSample>,
     patches: Vec<OceanPatch>,
@@ -67,7 +67,7 @@ fn vector_units_agree_bit_for_bit() {
         let points = points();
         let expected = answers(&ocean, Level::new(), &points);
         for level in levels::all() {
-            assert_eq!(answers(&ocean, level, &points), expected, "{level:?}");
+            assert!(answers(&ocean, level, &points) == expected, "{level:?}");
         }
         assert!(expected.samples[3] == OceanSample::default());
     }
@@ -83,7 +83,7 @@ fn a_point_does_not_know_its_company() {
         back.samples.reverse();
         back.patches.reverse();
         back.heights.reverse();
-        assert_eq!(back, together);
+        assert!(back == together);
         for i in [0, 5, 12, 13, 255, 511, 512, 699] {
             let alone = answers(&ocean, Level::new(), &points[i..=i]);
             assert_eq!(alone.samples[0], together.samples[i]);

@@ -112,17 +112,15 @@ impl Wave {
         let turns = place[0] * (self.i as u32) + place[1] * (self.j as u32) + start;
         let [cos, sin] = cos_sin(simd, turns);
         let amplitude = self.amplitude * part.weight;
-        match radius {
-            None => Phase { cos: cos * amplitude, sin: sin * amplitude },
-            Some(radius) => {
-                let amplitude = disc_mean(simd, radius * self.length) * amplitude;
-                Phase { cos: cos * amplitude, sin: sin * amplitude }
-            }
-        }
+        let amplitude = match radius {
+            None => f32x8::splat(simd, amplitude),
+            Some(radius) => disc_mean(simd, radius * self.length) * amplitude,
+        };
+        Phase { cos: cos * amplitude, sin: sin * amplitude }
     }
 }
 
-/// `sum + factor term`, and with a map's slopes.
+/// `sum + factor term`.
 #[inline(always)]
 fn add<S: Simd>(sum: &mut Four<S>, factor: Option<f32x8<S>>, term: &Four<S>) {
     for (sum, term) in sum.iter_mut().zip(term) {
