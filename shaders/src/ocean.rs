@@ -150,6 +150,7 @@ const FFT_TEXT: &str = concat!(
     include_str!("../wgsl/shared/fft_last.wgsl"),
     include_str!("../wgsl/shared/fft_stage.wgsl"),
 );
+const MEAN_TEXT: &str = include_str!("../wgsl/shared/mean4.wgsl");
 const WIDE_TEXT: &str = include_str!("../wgsl/shared/fft_wide.wgsl");
 const LINE_TEXT: &str = include_str!("../wgsl/shared/fft_lines.wgsl");
 const MODES_TEXT: &str = include_str!("../wgsl/shared/ocean_modes.wgsl");
@@ -194,7 +195,7 @@ pub const STAGE: Pass = Pass {
 pub const LOOKS: Pass = Pass {
     name: "ocean_looks",
     constants,
-    parts: &[PARAMS_TEXT, include_str!("../wgsl/ocean_looks.wgsl")],
+    parts: &[PARAMS_TEXT, MEAN_TEXT, include_str!("../wgsl/ocean_looks.wgsl")],
     entry_points: &["ocean_looks"],
     params: PARAMS,
 };
@@ -203,7 +204,7 @@ pub const LOOKS: Pass = Pass {
 pub const MIPS: Pass = Pass {
     name: "ocean_mips",
     constants: crate::no_constants,
-    parts: &[include_str!("../wgsl/ocean_mips.wgsl")],
+    parts: &[MEAN_TEXT, include_str!("../wgsl/ocean_mips.wgsl")],
     entry_points: &["ocean_mips"],
     params: &[],
 };

@@ -40,8 +40,8 @@ fn look(layer: u32, p: vec2<u32>) -> vec4<f32> {
 // Writes a texel of level 1 and the four below it, and returns it.
 fn look1(layer: u32, p1: vec2<u32>) -> vec4<f32> {
     let p = 2u * p1;
-    let mean = 0.25 * ((look(layer, p) + look(layer, p + vec2<u32>(1u, 0u)))
-        + (look(layer, p + vec2<u32>(0u, 1u)) + look(layer, p + vec2<u32>(1u, 1u))));
+    let mean = mean4(look(layer, p), look(layer, p + vec2<u32>(1u, 0u)),
+        look(layer, p + vec2<u32>(0u, 1u)), look(layer, p + vec2<u32>(1u, 1u)));
     textureStore(level1, p1, layer, mean);
     return mean;
 }
@@ -53,7 +53,7 @@ fn ocean_looks(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let p1 = 2u * id.xy;
-    let mean = 0.25 * ((look1(layer, p1) + look1(layer, p1 + vec2<u32>(1u, 0u)))
-        + (look1(layer, p1 + vec2<u32>(0u, 1u)) + look1(layer, p1 + vec2<u32>(1u, 1u))));
+    let mean = mean4(look1(layer, p1), look1(layer, p1 + vec2<u32>(1u, 0u)),
+        look1(layer, p1 + vec2<u32>(0u, 1u)), look1(layer, p1 + vec2<u32>(1u, 1u)));
     textureStore(level2, id.xy, layer, mean);
 }

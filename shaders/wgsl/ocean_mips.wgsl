@@ -13,8 +13,8 @@ fn texel(p: vec2<u32>, layer: u32) -> vec4<f32> {
 // Writes a texel of the next level and returns it.
 fn mip1(layer: u32, p1: vec2<u32>) -> vec4<f32> {
     let p = 2u * p1;
-    let mean = 0.25 * ((texel(p, layer) + texel(p + vec2<u32>(1u, 0u), layer))
-        + (texel(p + vec2<u32>(0u, 1u), layer) + texel(p + vec2<u32>(1u, 1u), layer)));
+    let mean = mean4(texel(p, layer), texel(p + vec2<u32>(1u, 0u), layer),
+        texel(p + vec2<u32>(0u, 1u), layer), texel(p + vec2<u32>(1u, 1u), layer));
     textureStore(level1, p1, layer, mean);
     return mean;
 }
@@ -26,8 +26,8 @@ fn ocean_mips(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let p1 = 2u * id.xy;
-    let mean = 0.25 * ((mip1(layer, p1) + mip1(layer, p1 + vec2<u32>(1u, 0u)))
-        + (mip1(layer, p1 + vec2<u32>(0u, 1u)) + mip1(layer, p1 + vec2<u32>(1u, 1u))));
+    let mean = mean4(mip1(layer, p1), mip1(layer, p1 + vec2<u32>(1u, 0u)),
+        mip1(layer, p1 + vec2<u32>(0u, 1u)), mip1(layer, p1 + vec2<u32>(1u, 1u)));
     if SIDE >= 8u {
         textureStore(level2, id.xy, layer, mean);
     }

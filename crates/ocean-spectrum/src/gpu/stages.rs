@@ -13,6 +13,8 @@ use crate::CascadeModes;
 const ALIKE: u32 = 2;
 /// Smaller cascades share dispatches however they are filled: there a dispatch costs more than what it could skip.
 const SMALL: u32 = 128;
+/// From here on none share: all stages of one cascade after the other stay in a CPU's cache, a stage of all does not.
+const LARGE: u32 = 512;
 
 /// Neighbouring cascades whose transforms run in the same dispatches.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -136,5 +138,6 @@ mod tests {
         assert_eq!(found, [Class { cascades: 0..2, half: 42 }, Class { cascades: 2..3, half: 128 }]);
         assert_eq!(classes(FftKernel::Lines, 256, &[42, 41, 128]).len(), 1);
         assert_eq!(classes(FftKernel::Stages, 64, &[9, 32]).len(), 1);
+        assert_eq!(classes(FftKernel::Stages, 512, &[42, 41]).len(), 2);
     }
 }

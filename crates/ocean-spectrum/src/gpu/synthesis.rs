@@ -49,8 +49,8 @@ pub(super) struct Synthesis {
     modes: ModeTextures,
     /// The first stage of each class while one mode set is in use, and, once it was needed, while two are mixed.
     first: [Vec<Dispatch>; 2],
-    /// The other stages, each of all classes before the next.
-    rest: Vec<Dispatch>,
+    /// The other stages of each class.
+    rest: Vec<Vec<Dispatch>>,
     is_mixed: bool,
     half_done: wgpu::Texture,
     pub(super) fields: wgpu::Texture,
@@ -110,18 +110,19 @@ impl Synthesis {
 
     fn make_stages(&mut self) {
         self.first = [self.first_stages(false), Vec::new()];
-        let classes = self.classes();
-        let steps: Vec<Vec<Step>> = classes.iter().map(|class| steps(self.kernel, self.shape, class, false)).collect();
-        let count = steps[0].len();
         let pair = self.pair();
-        self.rest = (1..count)
-            .flat_map(|stage| steps.iter().zip(&classes).map(move |(steps, class)| (stage, &steps[stage], class)))
-            .map(|(stage, step, class)| {
-                // The textures take turns so that the last stage writes the fields.
-                let after = count - 1 - stage;
-                self.dispatch(step, class, &[(READ, &pair[(after + 1) % 2])], &pair[after % 2])
-            })
-            .collect();
+        let classes = self.classes();
+        let rest = classes.iter().map(|class| {
+            let steps = steps(self.kernel, self.shape, class, false);
+            // The textures take turns so that the last stage writes the fields.
+            let afters = (0..steps.len() - 1).rev();
+            steps[1..]
+                .iter()
+                .zip(afters)
+                .map(|(step, after)| self.dispatch(step, class, &[(READ, &pair[(after + 1) % 2])], &pair[after % 2]))
+                .collect()
+        });
+        self.rest = rest.collect();
     }
 
     fn first_stages(&self, mixed: bool) -> Vec<Dispatch> {
@@ -171,7 +172,8 @@ impl Synthesis {
     }
 
     fn dispatches(&self) -> impl Iterator<Item = &Dispatch> {
-        self.first[usize::from(self.is_mixed)].iter().chain(&self.rest)
+        let first = &self.first[usize::from(self.is_mixed)];
+        first.iter().zip(&self.rest).flat_map(|(first, rest)| std::iter::once(first).chain(rest))
     }
 
     pub(super) fn passes(&self) -> impl Iterator<Item = &GpuPass> {
