@@ -36,7 +36,9 @@ pub(super) fn classes(kernel: FftKernel, size: u32, halves: &[u32]) -> Vec<Class
     for (c, &half) in (0..).zip(halves) {
         match classes.last_mut() {
             Some(last)
-                if kernel == FftKernel::Lines || size < SMALL || half.max(last.half) < ALIKE * half.min(last.half) =>
+                if kernel == FftKernel::Lines
+                    || size < SMALL
+                    || size < LARGE && half.max(last.half) < ALIKE * half.min(last.half) =>
             {
                 last.cascades.end = c + 1;
                 last.half = last.half.max(half);
