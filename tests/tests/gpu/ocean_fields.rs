@@ -112,18 +112,18 @@ fn fields_match_the_cpu_at_every_size() {
 #[test]
 fn another_sea_is_taken_over_and_another_shape_refused() {
     let context = Context::new();
-    let ocean = Ocean::new(desc(32, &[300.0, 40.0])).expect("valid");
+    let ocean = Ocean::new(desc(32, &[300.0, 150.0])).expect("valid");
     let mut gpu = GpuOcean::new(&context.device, &ocean).expect("fits");
     let before = fields(&context, &mut gpu, &ocean, 20.0);
-    // Other tiles: other rows hold modes.
-    let changed = Ocean::new(OceanDesc { seed: 8, choppiness: 0.5, ..desc(32, &[300.0, 150.0]) }).expect("valid");
+    // Other tiles: more rows hold modes.
+    let changed = Ocean::new(OceanDesc { seed: 8, choppiness: 0.5, ..desc(32, &[300.0, 40.0]) }).expect("valid");
     gpu.check(&changed).expect("same shape");
     let after = fields(&context, &mut gpu, &changed, 20.0);
     assert_ne!(before, after);
     let mut fresh = GpuOcean::new(&context.device, &changed).expect("fits");
     assert_eq!(fields(&context, &mut fresh, &changed, 20.0), after);
 
-    let larger = Ocean::new(desc(64, &[300.0, 40.0])).expect("valid");
+    let larger = Ocean::new(desc(64, &[300.0, 150.0])).expect("valid");
     let error = gpu.check(&larger).expect_err("another size");
     assert!(matches!(error, GpuError::InvalidValue { field: "size of the largest cascade", value: 64.0, .. }));
     context.submit(|encoder| gpu.encode_fields(&context.queue, encoder, &larger, 20.0));
