@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use ocean_spectrum::{Ocean, OceanDesc, SeaState, WaveSpectrum};
+use ocean_spectrum::{Ocean, OceanDesc, Partition, SeaState, Spectrum, Spreading, WaveSpectrum};
 
 fn main() -> Result<(), Box<dyn Error>> {
     match std::env::args().nth(1) {
@@ -11,15 +11,24 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
+/// Significant height and peak period by wind and fetch, fully grown, and over 8 m of water.
 fn table() -> Result<(), Box<dyn Error>> {
-    println!("wind at 10 m | fetch  | Hs, m | Tp, s | length of the main waves, m");
-    for (wind, fetch) in
-        [(3.0, 10e3), (5.0, 30e3), (8.0, 60e3), (10.0, 100e3), (14.0, 200e3), (18.0, 300e3), (24.0, 500e3)]
-    {
-        let sea = WaveSpectrum::new(&SeaState::wind(wind, fetch, 0.0))?;
-        let length = std::f64::consts::TAU / sea.peak_wavenumber();
-        let (height, period) = (sea.significant_height(), sea.peak_period());
-        println!("{wind:>8} m/s | {:>3} km | {height:5.2} | {period:5.1} | {length:5.0}", fetch / 1e3);
+    println!("| Beaufort, wind | 10 km | 100 km | 500 km | grown | 100 km, 8 m deep |\n|---|---|---|---|---|---|");
+    for (force, wind) in [(2, 2.5), (4, 6.7), (5, 9.4), (6, 12.3), (7, 15.5), (8, 19.0), (10, 26.5)] {
+        let grown = Partition::new(Spectrum::PiersonMoskowitz { wind_speed: wind }, 0.0, Spreading::Cos2s { s: 6.0 });
+        let seas = [
+            SeaState::wind(wind, 10e3, 0.0),
+            SeaState::wind(wind, 100e3, 0.0),
+            SeaState::wind(wind, 500e3, 0.0),
+            SeaState { partitions: vec![grown], depth: None },
+            SeaState::tma(wind, 100e3, 0.0, 8.0),
+        ];
+        print!("| {force}, {wind} m/s |");
+        for sea in seas {
+            let sea = WaveSpectrum::new(&sea)?;
+            print!(" {:.1} m, {:.1} s |", sea.significant_height(), sea.peak_period());
+        }
+        println!();
     }
     Ok(())
 }

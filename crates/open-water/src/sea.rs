@@ -8,7 +8,7 @@ use crate::land::Turning;
 use crate::water::OpenWater;
 
 impl OpenWater {
-    /// Lets the sea become another one over `seconds` (see [`Ocean::change_to`]): the wind rises or turns, a swell comes in.
+    /// Lets the sea become another one over `seconds` (see [`Ocean::change_to`](ocean_spectrum::Ocean::change_to)): the wind rises or turns, a swell comes in.
     /// Heights stay continuous. The tiles stay: choose them for the highest sea that is to come.
     ///
     /// Near land, the factors of depth and shelter follow in 32 steps.
