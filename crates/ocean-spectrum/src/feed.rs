@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use open_water_shaders::turns;
 
 use crate::error::check;
-use crate::set::ModeSet;
+use crate::modes::set::ModeSet;
 use crate::{CascadeModes, Moment, Ocean, OceanError};
 
 /// Waves summed together.

@@ -28,74 +28,52 @@
 //! of the FFTs only decide how many of them are held. Feature `gpu` adds synthesis on wgpu from the same modes; without
 //! it the crate does not know wgpu.
 //!
+//! Which sea to choose is what the crate's README teaches, with pictures: by wind and fetch ([`SeaState::wind`]), by height
+//! and period ([`SeaState::height_period`]), with swell ([`SeaState::with_swell`]), in shallow water ([`SeaState::tma`]), or
+//! as a buoy measured it ([`SeaState::from_file`], [`SeaState::from_ndbc`]). [`OceanDesc::for_sea`] finds tiles that suit it,
+//! and [`Ocean::change_to`] lets one sea become another.
+//!
+//! Arrays are made when something reads them ([`Ocean::prepare`] makes them on all threads before). A second time is looked
+//! at through a clone, which shares the modes. A server that asks for few points needs no arrays: [`Queries::Largest`].
+//!
 //! Near land an [`AmplitudeMap`] scales the cascades from place to place ([`Ocean::depth_factors`] says by how much over
 //! a depth), and [`EdgeFeed`] hands the incoming waves to an interactive grid.
 //!
 //! Not here: interactive waves, bodies, refraction (a wave's length follows from one depth everywhere), the shape of
 //! breaking waves.
 
-#[cfg(test)]
-mod agreement;
-mod amplitude;
-#[cfg(test)]
-mod bits;
-mod change;
-mod direct;
 pub mod dispersion;
 mod error;
 mod feed;
-mod fft;
-mod file;
+mod files;
 #[cfg(feature = "gpu")]
 pub mod gpu;
-mod held;
-mod invert;
-mod kernel;
-mod lanes;
-mod largest;
-mod layers;
-mod lazy;
-mod levels;
 mod modes;
-mod moment;
-mod ndbc;
 mod ocean;
-mod pack;
-mod parameters;
-mod partition;
-mod patch;
-mod plane;
-mod plane_file;
-mod pool;
 mod query;
-mod random;
 pub mod reference;
 mod sea;
-mod set;
-mod shape;
-mod shoal;
-mod spectrum;
-mod spreading;
 mod synthesis;
-mod table;
-mod tail;
-mod tiles;
 
-pub use amplitude::{AmplitudeMap, CascadeFactors};
 pub use error::{Notice, OceanError};
 pub use feed::{EdgeDesc, EdgeFeed};
-pub use largest::Queries;
-pub use lazy::Outputs;
+pub use modes::moment::Moment;
 pub use modes::{Amplitudes, CascadeModes};
-pub use moment::Moment;
 pub use ocean::{CascadeDesc, CascadeFields, Ocean, OceanDesc};
-pub use partition::{Partition, Spectrum, Spreading, TableRow, Tail};
-pub use patch::OceanPatch;
-pub use plane::DirectionalTable;
 pub use query::OceanSample;
+pub use query::amplitude::{AmplitudeMap, CascadeFactors};
+pub use query::largest::Queries;
+pub use query::patch::OceanPatch;
 pub use sea::SeaState;
-pub use shoal::{BREAKING_HEIGHT, depth_share};
-pub use spectrum::{SLOPE_CUTOFF, WaveSpectrum};
+pub use sea::partition::{Partition, Spectrum, Spreading, TableRow, Tail};
+pub use sea::plane::DirectionalTable;
+pub use sea::shoal::{BREAKING_HEIGHT, depth_share};
+pub use sea::spectrum::{SLOPE_CUTOFF, WaveSpectrum};
+pub use synthesis::lazy::Outputs;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 /// Acceleration of gravity, m/s^2.
 pub const GRAVITY: f64 = 9.81;

@@ -7,17 +7,17 @@ use glam::{DVec2, Vec2};
 use open_water_shaders::surface::MAX_CASCADES;
 use rayon::prelude::*;
 
-use crate::amplitude::{AmplitudeMap, Placed};
-use crate::change::Segment;
-use crate::direct::{Direct, Part};
 use crate::error::check;
-use crate::kernel::Texels;
-use crate::largest::Queries;
-use crate::layers::{Layer, Layers, View};
-use crate::lazy::{Outputs, Source, Synthesis};
 use crate::modes::Amplitudes;
-use crate::moment::{Moment, Parts, finite};
-use crate::set::ModeSet;
+use crate::modes::change::Segment;
+use crate::modes::moment::{Moment, Parts, finite};
+use crate::modes::set::ModeSet;
+use crate::query::amplitude::{AmplitudeMap, Placed};
+use crate::query::direct::{Direct, Part};
+use crate::query::kernel::Texels;
+use crate::query::largest::Queries;
+use crate::query::layers::{Layer, Layers, View};
+use crate::synthesis::lazy::{Outputs, Source, Synthesis};
 use crate::{Notice, OceanError, SeaState};
 
 /// One cascade: a periodic square of sea that carries one band of wavelengths.

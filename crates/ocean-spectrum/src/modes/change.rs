@@ -5,10 +5,10 @@ use std::sync::Arc;
 use open_water_shaders::turns;
 
 use crate::error::check;
-use crate::moment::Parts;
-use crate::patch::Band;
-use crate::set::ModeSet;
-use crate::shoal::Frequencies;
+use crate::modes::moment::Parts;
+use crate::modes::set::ModeSet;
+use crate::query::patch::Band;
+use crate::sea::shoal::Frequencies;
 use crate::{CascadeModes, Ocean, OceanDesc, OceanError};
 
 /// One change: the sea is that of `from` until `start`, then on its way, then that of `to`.

@@ -5,10 +5,10 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use rayon::prelude::*;
 
 use crate::Moment;
-use crate::lanes::Aligned;
-use crate::pool::Pools;
-use crate::set::ModeSet;
+use crate::modes::set::ModeSet;
 use crate::synthesis::Job;
+use crate::synthesis::lanes::Aligned;
+use crate::synthesis::pool::Pools;
 
 /// Which arrays of [`crate::CascadeFields`] are wanted; the displacement always is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

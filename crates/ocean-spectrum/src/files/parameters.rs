@@ -1,7 +1,7 @@
 //! The `key = value` lines of one partition.
 
-use crate::file::{At, shortened, towards};
-use crate::partition::{Partition, Spectrum, Spreading, Tail, WIND_SEA_S};
+use crate::files::{At, shortened, towards};
+use crate::sea::partition::{Partition, Spectrum, Spreading, Tail, WIND_SEA_S};
 use crate::{OceanError, SeaState};
 
 const KEYS: &str =

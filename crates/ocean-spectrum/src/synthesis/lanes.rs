@@ -215,7 +215,7 @@ impl<T> DerefMut for Aligned<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::levels;
+    use crate::synthesis::levels;
     use fearless_simd::dispatch;
 
     #[test]

@@ -1,6 +1,6 @@
 //! Tails: what replaces a spectrum's own decay well above its peak.
 
-use crate::partition::Tail;
+use crate::sea::partition::Tail;
 use crate::{GRAVITY, dispersion};
 
 /// Where the tail of Donelan begins and where it gets steeper, over the peak.

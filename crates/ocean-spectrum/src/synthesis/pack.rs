@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 
 use fearless_simd::Simd;
 
-use crate::held::{Cell, State};
-use crate::lanes::{Complex, f32s};
+use crate::synthesis::held::{Cell, State};
+use crate::synthesis::lanes::{Complex, f32s};
 use crate::{CascadeModes, OceanDesc};
 
 /// The packing of one array of four fields.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::shape::Shape;
+use crate::sea::shape::Shape;
 use crate::{Notice, OceanError, SeaState, dispersion};
 
 /// Wavenumber up to which slopes are summed, rad/m: the slowest wave (1.7 cm), beyond which surface tension rules. With

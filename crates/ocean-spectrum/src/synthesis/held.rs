@@ -5,8 +5,8 @@ use std::f32::consts::TAU;
 use fearless_simd::{Simd, prelude::*};
 
 use crate::CascadeModes;
-use crate::fft::Band;
-use crate::lanes::{Aligned, Complex, cos_sin, f32s};
+use crate::synthesis::fft::Band;
+use crate::synthesis::lanes::{Aligned, Complex, cos_sin, f32s};
 
 /// Floats that a lane of a cell has.
 const PARTS: usize = 6;

@@ -1,10 +1,18 @@
 //! The sea in an oceanographer's words: partitions (wind sea, swells) and the depth.
 
+pub(crate) mod partition;
+pub(crate) mod plane;
+pub(crate) mod shape;
+pub(crate) mod shoal;
+pub(crate) mod spectrum;
+pub(crate) mod spreading;
+pub(crate) mod tail;
+
 use std::path::Path;
 
 use crate::error::check;
-use crate::partition::{Partition, Spectrum, Spreading, WIND_SEA_S};
-use crate::{OceanError, file, ndbc};
+use crate::sea::partition::{Partition, Spectrum, Spreading, WIND_SEA_S};
+use crate::{OceanError, files as file, files::ndbc};
 
 /// A sea state: the sum of its partitions over water of one depth.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use crate::partition::{Partition, Spectrum, TableRow};
-use crate::plane::Plane;
-use crate::shoal::share_at;
-use crate::spreading::{Cos2s, Spread};
-use crate::tail::Prepared;
+use crate::sea::partition::{Partition, Spectrum, TableRow};
+use crate::sea::plane::Plane;
+use crate::sea::shoal::share_at;
+use crate::sea::spreading::{Cos2s, Spread};
+use crate::sea::tail::Prepared;
 use crate::{GRAVITY, Notice, dispersion};
 
 /// A partition with its constants.

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 
-use crate::fft::{Band, Fft};
-use crate::lanes::{Aligned, Complex, MOST_LANES};
-use crate::{CascadeDesc, Ocean, OceanDesc, SeaState, levels};
+use crate::synthesis::fft::{Band, Fft};
+use crate::synthesis::lanes::{Aligned, Complex, MOST_LANES};
+use crate::{CascadeDesc, Ocean, OceanDesc, SeaState, synthesis::levels};
 
 /// Hashes of the transforms of impulses, sizes 16 to 1,024.
 const IMPULSES: [u64; 7] = [

@@ -3,16 +3,26 @@
 //! Only the columns that hold modes are transformed along z; a band-limited cascade has few. What lies between the two
 //! directions is kept in blocks of as many columns as there are lanes.
 
+#[cfg(test)]
+mod bits;
+pub(crate) mod fft;
+pub(crate) mod held;
+pub(crate) mod lanes;
+pub(crate) mod lazy;
+pub(crate) mod levels;
+pub(crate) mod pack;
+pub(crate) mod pool;
+
 use fearless_simd::{Simd, dispatch, prelude::*};
 use rayon::prelude::*;
 
 use crate::Moment;
-use crate::fft::Fft;
-use crate::held::Held;
-use crate::lanes::{Complex, MOST_LANES, f32s, transpose};
-use crate::pack::Pack;
-use crate::pool::Pools;
-use crate::set::ModeSet;
+use crate::modes::set::ModeSet;
+use crate::synthesis::fft::Fft;
+use crate::synthesis::held::Held;
+use crate::synthesis::lanes::{Complex, MOST_LANES, f32s, transpose};
+use crate::synthesis::pack::Pack;
+use crate::synthesis::pool::Pools;
 
 /// What an array of four fields is made from: two complex transforms.
 #[derive(Clone, Copy)]

@@ -3,9 +3,9 @@
 use fearless_simd::{Level, Simd, f32x8, prelude::*};
 use glam::{Vec2, Vec3};
 
-use crate::invert::{Field, Group};
-use crate::kernel::{LANES, stored};
 use crate::query::Answer;
+use crate::query::invert::{Field, Group};
+use crate::query::kernel::{LANES, stored};
 use crate::{CascadeModes, Ocean};
 
 /// The sea around a point as a small body feels it: a plane with its motion.

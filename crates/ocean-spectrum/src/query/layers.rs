@@ -4,12 +4,12 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec2, Vec2};
 use open_water_shaders::surface::MAX_CASCADES;
 
-use crate::amplitude::Placed;
-use crate::invert::{Field, Four, Group, Motion, Pair, Reading};
-use crate::kernel::{Factor, LANES, Lanes, Spare, Sums, Taps, Texels, fields};
-use crate::lazy::Synthesis;
-use crate::patch::Band;
-use crate::set::ModeSet;
+use crate::modes::set::ModeSet;
+use crate::query::amplitude::Placed;
+use crate::query::invert::{Field, Four, Group, Motion, Pair, Reading};
+use crate::query::kernel::{Factor, LANES, Lanes, Spare, Sums, Taps, Texels, fields};
+use crate::query::patch::Band;
+use crate::synthesis::lazy::Synthesis;
 
 /// What an ocean holds of a cascade.
 #[derive(Clone)]

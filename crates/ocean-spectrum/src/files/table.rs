@@ -1,8 +1,8 @@
 //! A measured spectrum as wave buoys publish it: a line of column names, then a row per frequency.
 
 use crate::OceanError;
-use crate::file::{At, shortened, towards};
-use crate::partition::{Partition, Spectrum, Spreading, TableRow};
+use crate::files::{At, shortened, towards};
+use crate::sea::partition::{Partition, Spectrum, Spreading, TableRow};
 
 const MOST_ROWS: usize = 4096;
 const NAMES: &str = "columns frequency, density, direction, and spread or r1";

@@ -3,7 +3,7 @@
 use std::f64::consts::{LN_2, PI};
 
 use crate::GRAVITY;
-use crate::partition::Spreading;
+use crate::sea::partition::Spreading;
 
 /// Nodes over the logarithm of the frequency, from and to these multiples of the peak, where no closed form gives the
 /// integral.

@@ -5,14 +5,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use fearless_simd::Level;
 
-use crate::fft::Fft;
-use crate::held::Held;
-use crate::largest::{Largest, Queries};
-use crate::levels::lanes;
 use crate::modes::{self, CascadeModes};
-use crate::pack::Pack;
-use crate::patch::Band;
-use crate::shoal::Frequencies;
+use crate::query::largest::{Largest, Queries};
+use crate::query::patch::Band;
+use crate::sea::shoal::Frequencies;
+use crate::synthesis::fft::Fft;
+use crate::synthesis::held::Held;
+use crate::synthesis::levels::lanes;
+use crate::synthesis::pack::Pack;
 use crate::{Notice, OceanDesc, OceanError, WaveSpectrum};
 
 /// Spectra that are kept of a mix.

@@ -1,10 +1,14 @@
 //! Reads a sea state from text: parameters, or a table of a measured spectrum.
 
+pub(crate) mod ndbc;
+pub(crate) mod parameters;
+pub(crate) mod plane;
+pub(crate) mod table;
+
 use std::path::Path;
 
-use crate::parameters::Keys;
+use crate::files::parameters::Keys;
 use crate::{OceanError, SeaState};
-use crate::{plane_file, table};
 
 /// Largest file that is read, bytes.
 const LARGEST: u64 = 1 << 20;
@@ -104,7 +108,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<SeaState, OceanError> {
                 partitions.push(std::mem::take(&mut keys).finish(keys_at)?);
             }
             partitions.push(match line.strip_prefix("directions") {
-                Some(directions) => plane_file::parse(at, directions, &mut lines, end)?,
+                Some(directions) => plane::parse(at, directions, &mut lines, end)?,
                 None => table::parse(at, line, &mut lines, end)?,
             });
         }

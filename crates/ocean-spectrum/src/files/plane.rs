@@ -1,7 +1,7 @@
 //! A measured spectrum over frequency and direction in a sea file: a line of directions, then a row per frequency.
 
-use crate::file::At;
-use crate::partition::{Partition, Spectrum, Spreading};
+use crate::files::At;
+use crate::sea::partition::{Partition, Spectrum, Spreading};
 use crate::{DirectionalTable, OceanError};
 
 const MOST_ROWS: usize = 4096;

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use crate::lanes::Aligned;
+use crate::synthesis::lanes::Aligned;
 
 /// Pieces of memory of one size or more.
 pub(crate) struct Pool {

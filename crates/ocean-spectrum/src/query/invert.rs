@@ -9,7 +9,7 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::Vec2;
 use open_water_shaders::surface::{CHOP_LAST_STEP, CHOP_LEAST_STEP, CHOP_ROUNDS};
 
-use crate::kernel::{LANES, Lanes};
+use crate::query::kernel::{LANES, Lanes};
 
 /// Farthest position that is answered, metres: f32 cannot tell places apart long before.
 const FARTHEST: f32 = 1e8;

@@ -1,7 +1,7 @@
 //! Spectra as the National Data Buoy Center publishes them in real time, one file each of densities, directions, widths.
 
-use crate::file::{At, shortened, towards};
-use crate::partition::{Partition, Spectrum, Spreading, TableRow};
+use crate::files::{At, shortened, towards};
+use crate::sea::partition::{Partition, Spectrum, Spreading, TableRow};
 use crate::{OceanError, SeaState};
 
 /// What stands for a value that is missing, or more.

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::change::Segment;
-use crate::patch::Band;
-use crate::set::ModeSet;
-use crate::shoal::Frequencies;
+use crate::modes::change::Segment;
+use crate::modes::set::ModeSet;
+use crate::query::patch::Band;
+use crate::sea::shoal::Frequencies;
 use crate::{CascadeModes, Ocean, OceanDesc, WaveSpectrum, dispersion};
 
 /// What a sea's modes are at one time: `h(k) = sum of weight[s] h_s(k)` over one or two mode sets, each brought to its

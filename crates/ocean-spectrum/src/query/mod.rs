@@ -2,13 +2,23 @@
 //!
 //! One point's answer does not depend on the others asked for with it.
 
+#[cfg(test)]
+mod agreement;
+pub(crate) mod amplitude;
+pub(crate) mod direct;
+pub(crate) mod invert;
+pub(crate) mod kernel;
+pub(crate) mod largest;
+pub(crate) mod layers;
+pub(crate) mod patch;
+
 use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
 use glam::{Vec2, Vec3};
 use open_water_shaders::surface::CHOP_LEAST_SLOPE;
 use rayon::prelude::*;
 
-use crate::invert::{Field, GROUPS, Group, Motion, Pair, invert};
-use crate::kernel::{LANES, stored};
+use crate::query::invert::{Field, GROUPS, Group, Motion, Pair, invert};
+use crate::query::kernel::{LANES, stored};
 use crate::{Ocean, Outputs, Queries};
 
 /// Where the surface does not fold, some particle is nearer than this, metres.

@@ -3,12 +3,18 @@
 //! Everything here depends on the sea, the seed, the tiles and the loop time, not on the FFT sizes: a smaller FFT holds
 //! a subset of the same modes.
 
+pub(crate) mod change;
+pub(crate) mod moment;
+pub(crate) mod random;
+pub(crate) mod set;
+pub(crate) mod tiles;
+
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
-use crate::spectrum::WaveSpectrum;
-use crate::{CascadeDesc, dispersion, random};
+use crate::sea::spectrum::WaveSpectrum;
+use crate::{CascadeDesc, dispersion};
 
 /// Waves of a shorter cascade start where this many of them fit its tile: enough to resolve their directions and not to
 /// show the tile, while the longer cascade, at a ratio of 6.7 and a size of 256, still has 6.3 texels per wavelength

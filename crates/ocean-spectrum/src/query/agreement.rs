@@ -5,9 +5,9 @@ use std::sync::Arc;
 use fearless_simd::Level;
 use glam::{DVec2, Vec2};
 
-use crate::levels;
-use crate::patch::Patches;
+use crate::query::patch::Patches;
 use crate::query::{Heights, Samples};
+use crate::synthesis::levels;
 use crate::{AmplitudeMap, Ocean, OceanDesc, OceanPatch, OceanSample, Queries};
 
 fn seas() -> Vec<Ocean> {

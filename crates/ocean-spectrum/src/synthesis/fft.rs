@@ -1,14 +1,14 @@
 //! Inverse complex FFT of several signals at once, one per lane.
 //!
 //! Decimation in frequency with radix 4 in place, and a last pass (radix 4, or 2 where the size asks for it) that writes
-//! the results in order (Van Loan 1992, 1.6 and 2.4). The same operations on any machine: see [`crate::lanes`].
+//! the results in order (Van Loan 1992, 1.6 and 2.4). The same operations on any machine: see [`crate::synthesis::lanes`].
 
 use std::f64::consts::TAU;
 use std::slice::ChunksExactMut;
 
 use fearless_simd::{Simd, prelude::*};
 
-use crate::lanes::Complex;
+use crate::synthesis::lanes::Complex;
 
 /// Real and imaginary parts of w, w^2 and w^3 of a butterfly.
 type Twiddles = [f32; 6];

@@ -6,11 +6,11 @@ use glam::{DVec2, Vec2};
 use open_water_shaders::surface::MAX_CASCADES;
 use open_water_shaders::turns::{COS, RADIANS, SIN};
 
-use crate::amplitude::Placed;
-use crate::invert::{Field, Four, Group, Motion, Pair, Reading};
-use crate::kernel::LANES;
-use crate::largest::{Largest, Wave};
-use crate::patch::disc_mean;
+use crate::query::amplitude::Placed;
+use crate::query::invert::{Field, Four, Group, Motion, Pair, Reading};
+use crate::query::kernel::LANES;
+use crate::query::largest::{Largest, Wave};
+use crate::query::patch::disc_mean;
 
 /// The waves of a mode set at a time.
 #[derive(Clone, Copy)]
