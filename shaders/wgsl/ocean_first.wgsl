@@ -7,7 +7,8 @@ fn ocean_first(@builtin(global_invocation_id) id: vec3<u32>) {
     if place.line >= N {
         return;
     }
-    let derivative = Place(place.cascade, 1u, place.cascade + ocean.cascade_count, place.line);
+    var derivative = place;
+    derivative.layer += ocean.cascade_count;
     var v: Points;
     var u: Points;
     points_fetch_both(&v, &u, place, t);

@@ -170,8 +170,8 @@ fn view(context: &Context) -> Result<Vec<Row>, CaseError> {
         rows.push(
             Row::new("view_vs_query", variant)
                 .param("points", points.len())
-                .param("footprint_m", f64::from((footprint * 1e4).round() / 1e4))
-                .param("level_of_cascade_2", f64::from((level * 10.0).round() / 10.0))
+                .param("footprint_m", (f64::from(footprint) * 1e4).round() / 1e4)
+                .param("level_of_cascade_2", (f64::from(level) * 10.0).round() / 10.0)
                 .param("largest_height_percent", percent(most[0] / hs))
                 .param("slope_rms_percent", percent((sums[1] / sums[2]).sqrt()))
                 .param("largest_slope_error", percent(most[1]) / 100.0)

@@ -35,7 +35,7 @@ fn spectra(place: Place, i: u32) -> Spectra {
         h = ocean.weight.x * h + ocean.weight.y * mode_at(cell, place.cascade + ocean.cascade_count, ocean.phase.y);
     }
     let ih = vec2<f32>(-h.y, h.x);
-    let k = ocean.cascades[place.cascade].wave_step * vec2<f32>(signed_index(i), signed_index(place.line));
+    let k = place.wave_step * vec2<f32>(signed_index(i), signed_index(place.line));
     // Horizontal displacement: i lambda k/|k| h. The mean has no wave.
     let to_displacement = ocean.choppiness * k * inverseSqrt(max(dot(k, k), 1e-20));
     let d = -to_displacement * k;

@@ -11,25 +11,27 @@ struct Place {
     pair: u32,
     layer: u32,
     line: u32,
+    // The cascade's: read once, not at every point.
+    half: u32,
+    wave_step: f32,
 }
 
 fn place_of(z: u32, line: u32) -> Place {
     let pair = select(0u, 1u, z >= CASCADES);
     let cascade = FIRST_CASCADE + z - pair * CASCADES;
-    return Place(cascade, pair, cascade + pair * ocean.cascade_count, line);
+    let half = ocean.cascades[cascade].half;
+    return Place(cascade, pair, cascade + pair * ocean.cascade_count, line, half, ocean.cascades[cascade].wave_step);
 }
 
 // Place of the row numbered among those that may hold modes; from N on there is none.
 fn place_of_row(z: u32, row: u32) -> Place {
     var place = place_of(z, row);
-    let half = ocean.cascades[place.cascade].half;
-    place.line += select(0u, N + 1u - 2u * half, row >= half);
+    place.line += select(0u, N + 1u - 2u * place.half, row >= place.half);
     return place;
 }
 
 fn may_hold_modes(place: Place, i: u32) -> bool {
-    let half = ocean.cascades[place.cascade].half;
-    return i < half || i + half > N;
+    return i < place.half || i + place.half > N;
 }
 
 // Whether points t + e THREADS_PER_LINE hold no modes for any t.
