@@ -65,5 +65,10 @@ fn scenes(sections: &mut Sections) -> Result<(), Failure> {
             "run --release --example {scene} -- --frames 4 --size 320x180 --lead 4 --backend {backend} --out target/ci/{scene}-{backend}"
         ))?;
     }
+    for backend in ["cpu", "gpu"] {
+        sections.cargo(&format!(
+            "run --release --example seas -- --state breeze --then gale --over 1 --frames 36 --size 160x90 --backend {backend} --out target/ci/seas-{backend}"
+        ))?;
+    }
     sections.cargo("run --release --example embed -- --frames 4")
 }
