@@ -14,7 +14,8 @@ pub struct OpenWaterDesc {
     pub sea: SeaState,
     /// Chooses the phases of the waves: the same sea state and seed give the same sea everywhere.
     pub seed: u64,
-    /// FFT tiles that make up the sea, 1 to 8; [`OceanDesc::for_sea`] finds some that suit it. They stay when the sea changes.
+    /// FFT tiles that make up the sea, 1 to 8; [`OceanDesc::for_sea`] finds some that suit it. They stay when the sea
+    /// changes.
     pub cascades: Vec<CascadeDesc>,
     /// How far crests are sharpened, 0 to 1.
     pub choppiness: f32,
