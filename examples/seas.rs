@@ -22,7 +22,7 @@ const LEAD: f32 = 4.0;
 
 /// The seas that are shipped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Sea {
+enum State {
     /// A light breeze over a bay.
     Breeze,
     /// A wind sea of 10 m/s over 100 km.
@@ -35,7 +35,7 @@ enum Sea {
     Shallows,
 }
 
-impl Sea {
+impl State {
     const ALL: [Self; 5] = [Self::Breeze, Self::WindSea, Self::Gale, Self::Swell, Self::Shallows];
 
     fn read(self) -> Result<SeaState, SceneError> {
@@ -55,10 +55,10 @@ impl Sea {
 struct More {
     /// The sea at first, unless --sea names a file
     #[arg(long, value_enum, default_value = "wind-sea")]
-    state: Sea,
+    state: State,
     /// The sea into which it changes from the first picture on
     #[arg(long, value_enum, value_name = "STATE")]
-    then: Option<Sea>,
+    then: Option<State>,
     /// Seconds that a change takes, 1 to 600
     #[arg(long, value_name = "S", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=600))]
     over: u32,
@@ -105,7 +105,7 @@ impl Scene for Seas {
         }
         // Tiles stay as they are when the sea changes: they have to hold the longest waves of all.
         let longest =
-            if more.then.is_some() || options.wants_window() { Sea::Swell.read()? } else { water.sea.clone() };
+            if more.then.is_some() || options.wants_window() { State::Swell.read()? } else { water.sea.clone() };
         let size = water.cascades.iter().map(|cascade| cascade.size).max().unwrap_or(256);
         water.cascades = OceanDesc::for_sea(longest, size).cascades;
         Ok(())
@@ -154,7 +154,7 @@ impl Scene for Seas {
     }
 
     fn choose(&mut self, number: u32) -> Result<(), SceneError> {
-        match Sea::ALL.get(number.wrapping_sub(1) as usize) {
+        match State::ALL.get(number.wrapping_sub(1) as usize) {
             Some(sea) => Ok(self.water.change_sea(sea.read()?, self.over)?),
             None => Ok(()),
         }
