@@ -147,7 +147,7 @@ impl Scene for Harbour {
             let preset = options.preset().grid();
             let grid = GridDesc {
                 follow: Follow::Body(body),
-                cell_size: 0.8 * preset.cell_size,
+                cell_size: preset.cell_size.map(|h| 0.8 * h),
                 wave_speed: 0.8 * preset.wave_speed,
                 ..preset
             };

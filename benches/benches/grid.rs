@@ -33,7 +33,7 @@ fn ticks(c: &mut Criterion) {
 
 fn the_rest(c: &mut Criterion) {
     let mut grid = grid(fixtures::grid());
-    let h = f64::from(grid.desc().cell_size);
+    let h = f64::from(grid.desc().cell_size[0]);
     let mut step = 0;
     c.bench_function("grid/shift by a cell", |b| {
         b.iter(|| {

@@ -50,7 +50,7 @@ impl Launch {
     pub fn foam(&self, water: &OpenWater, at: Vec2) -> f32 {
         let Some(Ok(Some(grid))) = self.wake.map(|wake| water.grid(wake)) else { return 0.0 };
         let desc = grid.desc();
-        let cell = (at - grid.window().local_corner(DVec2::ZERO)) / desc.cell_size;
+        let cell = (at - grid.window().local_corner(DVec2::ZERO)) / Vec2::from(desc.cell_size);
         let inside = cell.cmpge(Vec2::ZERO).all() && cell.x < desc.cells[0] as f32 && cell.y < desc.cells[1] as f32;
         let index = cell.y as usize * desc.cells[0] as usize + cell.x as usize;
         let fade = grid.fade_at(at.as_dvec2());

@@ -65,9 +65,9 @@ pub struct GridParams {
     pub thickness: u32,
     /// Exponent of its profile, 3 or 4.
     pub exponent: u32,
-    /// Z at its outer edge.
+    /// Z at its outer edge along x.
     pub peak: f32,
-    /// a w0 and a w1.
+    /// a w0 and a w1 along x.
     pub weights: [f32; 2],
     /// sigma dt / 2.
     pub damping: f32,
@@ -79,14 +79,16 @@ pub struct GridParams {
     pub foam_growth: f32,
     /// Foam: factor left after a tick.
     pub foam_keep: f32,
-    /// a of deep water.
+    /// a of deep water along x.
     pub deep: f32,
     /// Foam over a bed: height at which waves of deep water's a begin to break, metres.
     pub foam_depth: f32,
     /// Foam at walls: full rate per metre of rise in a sub-step.
     pub foam_splash: f32,
-    /// Padding.
-    pub pad: [u32; 2],
+    /// Z at the layer's outer edge along z.
+    pub peak_z: f32,
+    /// a along z over a along x.
+    pub aspect: f32,
 }
 
 /// The grids of one tick, those with the most sub-steps first.
@@ -112,7 +114,7 @@ pub struct GridTile {
 pub struct GridCell {
     /// Cell on the torus, row-major, and its grid's place in [`TickParams`]: cell + 2^24 grid.
     pub place: u32,
-    /// (c dt / h)^2; at most 0 for a wall, 0 for one beside water.
+    /// (c dt / h)^2 along x; at most 0 for a wall, 0 for one beside water.
     pub a: f32,
     /// 1 / (1 + sigma dt / 2); 0 for what is not open water.
     pub r: f32,
@@ -126,14 +128,14 @@ pub struct GridCell {
 pub struct GridSource {
     /// Centre, cells from the window's corner.
     pub center: [f32; 2],
-    /// Where it ends, cells.
+    /// Where it ends along x, cells.
     pub outer: f32,
     /// Height in the middle, metres.
     pub height: f32,
     /// Foam in the middle.
     pub foam: f32,
-    /// Padding.
-    pub pad: u32,
+    /// Reach along x over reach along z, in cells.
+    pub stretch: f32,
 }
 
 /// Which dispatch this is.
@@ -205,9 +207,10 @@ const PARAMS: &[crate::ParamLayout] = &[
         deep,
         foam_depth,
         foam_splash,
-        pad
+        peak_z,
+        aspect
     }),
-    param_layout!(GridSource { center, outer, height, foam, pad }),
+    param_layout!(GridSource { center, outer, height, foam, stretch }),
     param_layout!(GridDispatch { first, substep, count, pad }),
     param_layout!(GridCell { place, a, r, pad }),
 ];

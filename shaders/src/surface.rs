@@ -42,14 +42,14 @@ pub struct SurfaceCascade {
 pub struct SurfaceGrid {
     /// Local position of the window's corner, metres.
     pub corner: [f32; 2],
-    /// Cell size, metres.
-    pub cell_size: f32,
-    /// First element in the pool.
-    pub base: u32,
+    /// Cell size along x and z, metres.
+    pub cell_size: [f32; 2],
     /// Cells along x and z.
     pub cells: [u32; 2],
+    /// First element in the pool.
+    pub base: u32,
     /// Padding.
-    pub pad: [u32; 2],
+    pub pad: u32,
 }
 
 /// The land as the composite surface sees it: where its rasters lie, and the level of the water.
@@ -102,7 +102,7 @@ impl Default for SurfaceTable {
 /// Layouts shared with WGSL.
 pub const PARAMS: &[crate::ParamLayout] = &[
     param_layout!(SurfaceCascade { offset, tile, size }),
-    param_layout!(SurfaceGrid { corner, cell_size, base, cells }),
+    param_layout!(SurfaceGrid { corner, cell_size, cells, base }),
     param_layout!(SurfaceTable {
         cascade_count,
         grid_count,

@@ -55,7 +55,7 @@ fn grid_prepare(
     for (var s = sources.x; s < sources.x + sources.y; s++) {
         let source = grid_sources[s];
         let dx = vec4<f32>(at.i) + 0.5 - source.center.x;
-        let dz = f32(at.j) + 0.5 - source.center.y;
+        let dz = source.stretch * (f32(at.j) + 0.5 - source.center.y);
         let t = clamp((source.outer - sqrt(dx * dx + dz * dz)) / source.outer, vec4<f32>(0.0), vec4<f32>(1.0));
         let weight = select(vec4<f32>(0.0), t * t * (3.0 - 2.0 * t), inside);
         now = clamp(now + weight * source.height, vec4<f32>(-HEIGHT_LIMIT), vec4<f32>(HEIGHT_LIMIT));

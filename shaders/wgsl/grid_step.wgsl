@@ -52,7 +52,9 @@ fn grid_step(
     let z = c.here;
     let straight = (*grid).weights.x;
     let beside = (*grid).weights.y;
-    let cross = ((c.west - z) + (c.east - z)) + ((s.here - z) + (n.here - z));
+    let aspect = (*grid).aspect;
+    let along_x = (c.west - z) + (c.east - z);
+    let along_z = (s.here - z) + (n.here - z);
 
     // r = 1 / (1 + damping), and the faces' coefficients where they vary.
     var r = vec4<f32>(1.0 / (1.0 + (*grid).damping));
@@ -69,7 +71,7 @@ fn grid_step(
         r = grid_ground[ground + stride + offset];
         faces = Fluxes(
             face(a_c.west, a_c.here), face(a_c.here, a_c.east), face(a_s.here, a_c.here), face(a_c.here, a_n.here));
-        flux = mixed_fluxes(s, c, n, a_s, a_c, a_n, faces, (*grid).weights / (*grid).deep);
+        flux = mixed_fluxes(s, c, n, a_s, a_c, a_n, faces, (*grid).weights / (*grid).deep, aspect);
     }
     var next: vec4<f32>;
     if !LAYER {
@@ -78,21 +80,23 @@ fn grid_step(
             divergence = (flux.east - flux.west) + (flux.north - flux.south);
         } else {
             let diagonal = ((s.west - z) + (s.east - z)) + ((n.west - z) + (n.east - z));
-            divergence = (straight - 2.0 * beside) * cross + 2.0 * beside * diagonal;
+            divergence = (straight - 2.0 * aspect * beside) * along_x + (aspect * straight - 2.0 * beside) * along_z
+                + (1.0 + aspect) * beside * diagonal;
         }
         next = flush(z + ((2.0 * r - 1.0) * (z - old) + r * divergence));
         grid_heights[old_at] = next;
     } else {
         if !MIXED {
-            flux = plain_fluxes(s, c, n, straight, beside);
+            flux = plain_fluxes(s, c, n, vec2<f32>(straight, aspect * straight), vec2<f32>(beside, aspect * beside));
         }
         let w = (*grid).thickness;
         let x = vec4<f32>(at.i);
         let y = vec4<f32>(f32(at.j));
         let power = (*grid).exponent;
         let peak = (*grid).peak;
+        let peak_z = (*grid).peak_z;
         let zi = layer_z(x, cells.x, w, power, peak);
-        let zj = layer_z(y, cells.y, w, power, peak);
+        let zj = layer_z(y, cells.y, w, power, peak_z);
         let memory = (*grid).base + level * stride;
         var px = grid_memory[memory + offset];
         var px_east = vec4<f32>(px.yzw, grid_memory[memory + at.row * columns + east].x);
@@ -107,8 +111,8 @@ fn grid_step(
         }
         let phi_w = next_phi(px, layer_z(x - 0.5, cells.x, w, power, peak), zj, flux.west);
         let phi_e = next_phi(px_east, layer_z(x + 0.5, cells.x, w, power, peak), zj, flux.east);
-        let phi_s = next_phi(pz, layer_z(y - 0.5, cells.y, w, power, peak), zi, flux.south);
-        let phi_n = next_phi(pz_north, layer_z(y + 0.5, cells.y, w, power, peak), zi, flux.north);
+        let phi_s = next_phi(pz, layer_z(y - 0.5, cells.y, w, power, peak_z), zi, flux.south);
+        let phi_n = next_phi(pz_north, layer_z(y + 0.5, cells.y, w, power, peak_z), zi, flux.north);
         let plain = (flux.east - flux.west) + (flux.north - flux.south);
         let layer = ((phi_e + px_east) - (phi_w + px)) + ((phi_n + pz_north) - (phi_s + pz));
         let scale = 1.0 / ((1.0 + 0.5 * zi) * (1.0 + 0.5 * zj));
@@ -129,9 +133,9 @@ fn grid_step(
         let last = grid_dispatch.substep + 1u == (*grid).substeps;
         let foam_at = (*grid).base + 3u * stride + offset;
         let foam = grid_heights[foam_at];
-        var bend = cross;
+        var bend = along_x + aspect * along_z;
         if MIXED {
-            bend = open_bend(s, c, n, faces);
+            bend = open_bend(s, c, n, faces, aspect);
         }
         var excess = clamp(-bend * (*grid).foam_scale - (*grid).foam_onset, vec4<f32>(0.0), vec4<f32>(1.0));
         if MIXED {

@@ -55,7 +55,7 @@ fn pulse(context: &Context) -> Result<Vec<Row>, CaseError> {
                 .param("width", *width)
                 .param("interior_cells", INTERIOR)
                 .param("wavelength_cells", WAVELENGTH)
-                .param("a", (small.stepping().a * 1e4).round() / 1e4)
+                .param("a", (small.stepping().a[0] * 1e4).round() / 1e4)
                 .error(decibels, "dB", "512^2 domain; over the peak at the border")
                 .time("a tick of the whole window", &timing);
             if scheme == Scheme::NinePoint && *width == 12 {
@@ -72,13 +72,13 @@ pub(super) fn reflection(small: &mut WaveGrid, large: &mut WaveGrid) -> f64 {
     // Quiet tiles differ by up to the height that counts as quiet, which is more than the border sends back.
     small.set_tile_skipping(false);
     large.set_tile_skipping(false);
-    let a = small.stepping().a;
+    let a = small.stepping().a[0];
     let substeps = f64::from(small.stepping().substeps);
     // Peak frequency per tick, and the centre of the pulse late enough that it starts from nothing.
     let frequency = substeps * a.sqrt() / WAVELENGTH;
     let delay = 1.5 / frequency;
     let travel = (2.5 * INTERIOR as f64) / (substeps * a.sqrt());
-    let volume = small.desc().cell_size.powi(2);
+    let volume = small.desc().cell_size[0].powi(2);
     let (mut worst, mut peak) = (0.0f64, 0.0f64);
     for tick in 0..(2.0 * delay + travel) as usize {
         let x = (std::f64::consts::PI * frequency * (tick as f64 - delay)).powi(2);
@@ -121,7 +121,7 @@ fn shift(context: &Context) -> Result<Vec<Row>, CaseError> {
             disturb(&mut grid, &mut random);
             let still = grid.clone();
             // Up to 1.5 times the speed of the waves, to any side, by any fraction of a cell.
-            let h = f64::from(desc.cell_size);
+            let h = f64::from(desc.cell_size[0]);
             let middle = middle(&grid);
             grid.center_on(middle + DVec2::new(random.within(-3.0, 3.0), random.within(-3.0, 3.0)) * h);
             // The outermost ring of either window is a wall.
@@ -145,7 +145,7 @@ fn shift(context: &Context) -> Result<Vec<Row>, CaseError> {
 
 fn middle(grid: &WaveGrid) -> DVec2 {
     let window = grid.window();
-    window.world_corner() + DVec2::from(window.cells.map(f64::from)) * 0.5 * f64::from(window.cell_size)
+    window.world_corner() + DVec2::from(window.cells.map(f64::from)) * 0.5 * f64::from(window.cell_size[0])
 }
 
 /// Some waves at a random place in the window, and time for them to spread.

@@ -80,7 +80,7 @@ fn pulse(_: &Context) -> Result<Vec<Row>, CaseError> {
         let grid = |cells: u32| -> Result<WaveGrid, CaseError> {
             let desc = GridDesc { cells: [cells; 2], pml_width: 12, ..fixtures::grid() };
             let mut grid = WaveGrid::new(desc)?;
-            grid.set_medium(Some(Arc::new(By { cell: f64::from(desc.cell_size), medium })));
+            grid.set_medium(Some(Arc::new(By { cell: f64::from(desc.cell_size[0]), medium })));
             Ok(grid)
         };
         let decibels = reflection(&mut grid(128 + 26)?, &mut grid(512)?);
@@ -169,7 +169,7 @@ fn cost(context: &Context) -> Result<Vec<Row>, CaseError> {
                 let mut grid = WaveGrid::new(desc)?;
                 if medium {
                     let bed = |p: DVec2| (0.75 + 0.25 * (p.y * 0.05).sin() as f32, CellKind::Open);
-                    grid.set_medium(Some(Arc::new(By { cell: f64::from(desc.cell_size), medium: bed })));
+                    grid.set_medium(Some(Arc::new(By { cell: f64::from(desc.cell_size[0]), medium: bed })));
                 }
                 let mut random = Random::new(3);
                 let heights: Vec<f32> = grid.heights().iter().map(|_| random.within(-0.01, 0.01) as f32).collect();

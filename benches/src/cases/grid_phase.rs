@@ -85,11 +85,11 @@ fn phase_error(desc: GridDesc, cells_per_wavelength: f64) -> Result<(f64, f64, f
             square += three[1] * three[1];
         }
         let omega = (0.5 * both / square).acos();
-        let error = 100.0 * (omega / (stepping.a.sqrt() * k) - 1.0);
+        let error = 100.0 * (omega / (stepping.a[0].sqrt() * k) - 1.0);
         least = least.min(error);
         most = most.max(error);
     }
-    Ok((least.abs().max(most.abs()), most - least, stepping.a))
+    Ok((least.abs().max(most.abs()), most - least, stepping.a[0]))
 }
 
 /// Time of a step of one cell, on all threads.

@@ -60,7 +60,7 @@ impl Run {
     fn new(scheme: Scheme, length: u32, cells_per_wave: f64, channel: Channel) -> Result<Self, CaseError> {
         let desc = GridDesc {
             cells: [length, 64],
-            cell_size: 1.0,
+            cell_size: [1.0; 2],
             wave_speed: 20.0,
             tick: 1.0 / 30.0,
             substeps: Some(1),
@@ -70,7 +70,7 @@ impl Run {
         let mut grid = WaveGrid::new(desc)?;
         grid.set_medium(Some(Arc::new(channel)));
         grid.set_feed(Edges { low_x: true, ..Edges::default() });
-        let a = grid.stepping().a;
+        let a = grid.stepping().a[0];
         let period = (cells_per_wave / a.sqrt()).round() as usize;
         // The dispersion relation of either scheme along an axis.
         let k = 2.0 * ((PI / period as f64).sin() / a.sqrt()).asin();

@@ -93,7 +93,7 @@ where
     where
         T: FromF64,
     {
-        let a = grid.stepping().a;
+        let a = grid.stepping().a[0];
         // The isotropic nine-point Laplacian is (8/12, 2/12), the five-point one (1, 0).
         let (edge, corner) = if scheme == Scheme::NinePoint { (8.0 / 12.0, 2.0 / 12.0) } else { (1.0, 0.0) };
         let now: Vec<T> = grid.heights().iter().map(|z| number(*z)).collect();

@@ -67,7 +67,7 @@ fn grid(feed: Edges) -> GridDesc {
     GridDesc {
         follow: Follow::Fixed(DVec2::splat(f64::from(SIDE) / 2.0)),
         cells: [CELLS; 2],
-        cell_size: CELL,
+        cell_size: [CELL; 2],
         wave_speed: SPEED,
         feed,
         ..GridDesc::default()

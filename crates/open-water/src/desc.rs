@@ -83,8 +83,8 @@ pub struct GridDesc {
     pub home: GridHome,
     /// Cells along x and z.
     pub cells: [u32; 2],
-    /// Cell size, metres.
-    pub cell_size: f32,
+    /// Cell size along x and z, metres.
+    pub cell_size: [f32; 2],
     /// Speed of the waves in deep water, metres per second. Over a bed they slow down as waves of that period do.
     pub wave_speed: f32,
     /// Interior scheme.
@@ -165,7 +165,7 @@ impl Preset {
             follow: Follow::Fixed(DVec2::ZERO),
             home: GridHome::Cpu,
             cells: [cells; 2],
-            cell_size: 0.125,
+            cell_size: [0.125; 2],
             wave_speed,
             scheme,
             pml_width,

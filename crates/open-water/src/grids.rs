@@ -190,7 +190,7 @@ impl Grids {
         let covering = self.list.iter().filter(|grid| grid.covers(place));
         let rank = |grid: &Grid| {
             let follows = grid.desc.follow == Follow::Body(body);
-            (!follows, grid.desc.home == GridHome::Gpu, grid.desc.cell_size)
+            (!follows, grid.desc.home == GridHome::Gpu, grid.desc.cell_size[0].max(grid.desc.cell_size[1]))
         };
         let before =
             |a: &(bool, bool, f32), b: &(bool, bool, f32)| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);

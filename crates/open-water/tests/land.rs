@@ -54,7 +54,7 @@ fn basin() -> GridDesc {
     GridDesc {
         follow: Follow::Fixed(DVec2::new(192.0, 192.0)),
         cells: [176, 176],
-        cell_size: 2.0,
+        cell_size: [2.0; 2],
         wave_speed: 9.37,
         feed: Edges { low_x: true, ..Edges::default() },
         ..GridDesc::default()
@@ -170,7 +170,7 @@ fn a_moving_grid_sees_the_same_walls() {
     let grid = |x: f64| GridDesc {
         follow: Follow::Fixed(DVec2::new(x, 80.0)),
         cells: [160; 2],
-        cell_size: 0.5,
+        cell_size: [0.5; 2],
         wave_speed: 6.2,
         ..GridDesc::default()
     };
@@ -262,7 +262,7 @@ fn what_cannot_be_fed_is_refused_and_nothing_is_lost() {
     assert!(refused(&mut water, GridDesc { home: GridHome::Gpu, ..basin() }).to_string().contains("CPU"));
     let away = GridDesc { follow: Follow::Fixed(DVec2::new(100.0, 192.0)), ..basin() };
     assert!(refused(&mut water, away).to_string().contains("must lie on the depth map"));
-    let coarse = GridDesc { cell_size: 7.0, cells: [50; 2], ..basin() };
+    let coarse = GridDesc { cell_size: [7.0; 2], cells: [50; 2], ..basin() };
     assert!(refused(&mut water, coarse).to_string().contains("cell_size"));
     let hull = Hull::cuboid(Vec3::splat(1.0)).unwrap();
     let body = water.add_body(BodyDesc::from_hull(&hull, 400.0)).unwrap();

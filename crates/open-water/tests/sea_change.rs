@@ -40,7 +40,7 @@ fn harbour(sea: SeaState) -> (OpenWater, GridId) {
     let desc = GridDesc {
         follow: Follow::Fixed(DVec2::new(150.0, 190.0)),
         cells: [120, 120],
-        cell_size: 2.0,
+        cell_size: [2.0; 2],
         wave_speed: 9.4,
         feed: Edges { low_x: true, ..Edges::default() },
         ..GridDesc::default()

@@ -48,8 +48,8 @@ impl Scheme {
 pub struct GridDesc {
     /// Cells along x and z, the border layer included: 48 to 4096 each. Default 256 x 256.
     pub cells: [u32; 2],
-    /// Cell size h, metres: 0.001 to 1000. Default 0.5.
-    pub cell_size: f32,
+    /// Cell size h along x and z, metres: 0.001 to 1000. Default 0.5.
+    pub cell_size: [f32; 2],
     /// Wave speed c in deep water, m/s: 0.001 to 1000. Default 6. All wavelengths travel at this speed; a
     /// [`crate::Medium`] can lower it.
     pub wave_speed: f32,
@@ -69,7 +69,7 @@ impl Default for GridDesc {
     fn default() -> Self {
         Self {
             cells: [256; 2],
-            cell_size: 0.5,
+            cell_size: [0.5; 2],
             wave_speed: 6.0,
             scheme: Scheme::default(),
             pml_width: 12,
@@ -87,8 +87,27 @@ pub struct Stepping {
     pub substeps: u32,
     /// Length of a sub-step, seconds.
     pub dt: f64,
-    /// `(c dt / h)^2`.
-    pub a: f64,
+    /// `(c dt / h)^2` along x and z.
+    pub a: [f64; 2],
+}
+
+impl Stepping {
+    /// a along z over a along x: 1 for square cells.
+    pub(crate) fn aspect(&self) -> f32 {
+        (self.a[1] / self.a[0]) as f32
+    }
+
+    /// The `a` of square cells that are as close to the bound: the largest eigenvalue of the scheme is 4 at the bound.
+    fn tightest(&self, scheme: Scheme) -> f64 {
+        let [x, z] = self.a;
+        let mean = 0.5 * (x + z);
+        match scheme {
+            // Waves of two cells along x, along z, along both: 4 x, 4 z, 8/3 (x + z).
+            Scheme::NinePoint => mean.max(0.75 * x.max(z)),
+            // 4 (x + z).
+            Scheme::FivePoint => mean,
+        }
+    }
 }
 
 fn within(field: &'static str, value: f64, low: f64, high: f64, bound: &'static str) -> Result<(), GridError> {
@@ -104,16 +123,21 @@ impl GridDesc {
         for (field, n) in [("cells[0]", self.cells[0]), ("cells[1]", self.cells[1])] {
             within(field, f64::from(n), 48.0, 4096.0, "48 to 4096 cells")?;
         }
-        within("cell_size", f64::from(self.cell_size), 0.001, 1000.0, "0.001 to 1000 m")?;
+        for (field, h) in [("cell_size[0]", self.cell_size[0]), ("cell_size[1]", self.cell_size[1])] {
+            within(field, f64::from(h), 0.001, 1000.0, "0.001 to 1000 m")?;
+        }
         within("wave_speed", f64::from(self.wave_speed), 0.001, 1000.0, "0.001 to 1000 m/s")?;
         within("pml_width", f64::from(self.pml_width), 4.0, 20.0, "4 to 20 cells")?;
         within("damping", f64::from(self.damping), 0.0, 10.0, "0 to 10 1/s")?;
         within("tick", f64::from(self.tick), 0.0001, 1.0, "0.0001 to 1 s")?;
-        let (c, h, tick) = (f64::from(self.wave_speed), f64::from(self.cell_size), f64::from(self.tick));
+        let (c, h, tick) = (f64::from(self.wave_speed), self.cell_size.map(f64::from), f64::from(self.tick));
         let number = |n: u32| {
             let dt = tick / f64::from(n);
-            let courant = c * dt / h;
-            Stepping { substeps: n, dt, a: courant * courant }
+            let a = h.map(|h| {
+                let courant = c * dt / h;
+                courant * courant
+            });
+            Stepping { substeps: n, dt, a }
         };
         // Speeds and ticks are f32: a bound met exactly in decimals must not fail by their rounding.
         let stable = |a: f64, bound: f64| a <= bound * (1.0 + 1e-6);
@@ -123,12 +147,13 @@ impl GridDesc {
                 (number(n), self.scheme.bound())
             }
             None => {
-                let fewest = (1..MAX_SUBSTEPS).find(|&n| stable(number(n).a, self.scheme.target()));
+                let fewest = (1..MAX_SUBSTEPS).find(|&n| stable(number(n).tightest(self.scheme), self.scheme.target()));
                 (number(fewest.unwrap_or(MAX_SUBSTEPS)), self.scheme.target())
             }
         };
-        if !stable(chosen.a, bound) {
-            return Err(GridError::Unstable { dt: chosen.dt, h, c, a: chosen.a, bound });
+        let a = chosen.tightest(self.scheme);
+        if !stable(a, bound) {
+            return Err(GridError::Unstable { dt: chosen.dt, h: h[0].min(h[1]), c, a, bound });
         }
         Ok(chosen)
     }

@@ -22,11 +22,11 @@ pub enum GridError {
     Unstable {
         /// Sub-step, seconds.
         dt: f64,
-        /// Cell size, metres.
+        /// The lesser cell size, metres.
         h: f64,
         /// Wave speed, m/s.
         c: f64,
-        /// `(c dt / h)^2`.
+        /// `(c dt / h)^2`, of oblong cells that of square ones as close to the bound.
         a: f64,
         /// Largest stable value of `a` for the scheme.
         bound: f64,

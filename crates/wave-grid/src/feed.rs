@@ -60,7 +60,7 @@ pub struct FeedLine {
     pub across: [f64; 2],
     /// World coordinate, along the side, of the first point, metres.
     pub first: f64,
-    /// Distance between points, metres: the cell size.
+    /// Distance between points, metres: the cell size along the side.
     pub step: f64,
     /// How many points a row has.
     pub count: usize,
@@ -224,8 +224,8 @@ impl Scheme<'_> {
             };
             (0..count).map(|k| [factor(k, -1), factor(k, 0), factor(k, 1)]).collect()
         });
-        let h = f64::from(self.desc.cell_size);
-        let world = |axis: usize, cell: usize| (window.corner[axis] as f64 + cell as f64 + 0.5) * h;
+        let h = self.desc.cell_size.map(f64::from);
+        let world = |axis: usize, cell: usize| (window.corner[axis] as f64 + cell as f64 + 0.5) * h[axis];
         let at = |across: usize| cell(across, 0)[1] * self.nx + cell(across, 0)[0];
         let step = if axis == 0 { self.nx } else { 1 };
         Line {
@@ -233,7 +233,7 @@ impl Scheme<'_> {
                 side,
                 across: [world(axis, outer), world(axis, inner)],
                 first: world(along, first),
-                step: h,
+                step: h[along],
                 count,
                 speed: self.mean_speed((0..count).map(|k| at(inner) + k * step)),
             },
@@ -249,7 +249,7 @@ impl Scheme<'_> {
         let Some(medium) = self.cells else { return deep };
         let (mut sum, mut count) = (0.0, 0.0);
         for at in cells.filter(|at| medium.is_open(*at)) {
-            sum += deep * (f64::from(medium.a[at]) / self.stepping.a).sqrt();
+            sum += deep * (f64::from(medium.a[at]) / self.stepping.a[0]).sqrt();
             count += 1.0;
         }
         if count > 0.0 { sum / count } else { deep }
@@ -261,9 +261,12 @@ impl Scheme<'_> {
         let (straight, beside) = self.desc.scheme.weights();
         let (across_x, across_z) = (p[0] != q[0], p[1] != q[1]);
         let Some(cells) = self.cells else {
-            let scale = self.stepping.a / (1.0 + 0.5 * f64::from(self.desc.damping) * self.stepping.dt);
-            let weight = if across_x && across_z { 2.0 * beside } else { straight - 2.0 * beside };
-            return (scale * weight) as f32;
+            let [ax, az] = self.stepping.a.map(|a| a / (1.0 + 0.5 * f64::from(self.desc.damping) * self.stepping.dt));
+            return match (across_x, across_z) {
+                (true, true) => (ax + az) * beside,
+                (true, false) => ax * straight - az * 2.0 * beside,
+                _ => az * straight - ax * 2.0 * beside,
+            } as f32;
         };
         let [x, z] = &cells.faces;
         let [at, other] = [p, q].map(|[i, j]| j * nx + i);

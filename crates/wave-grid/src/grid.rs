@@ -67,13 +67,13 @@ impl WaveGrid {
             ground: None,
             feed: None,
             coefficients: Coefficients {
-                straight: (stepping.a * straight) as f32,
-                beside: (stepping.a * beside) as f32,
+                straight: stepping.a.map(|a| (a * straight) as f32),
+                beside: stepping.a.map(|a| (a * beside) as f32),
                 damping: (0.5 * f64::from(desc.damping) * stepping.dt) as f32,
             },
             law: FoamLaw::new(&desc, &stepping),
             profile,
-            axes: [Axis::new(&profile, nx), Axis::new(&profile, nz)],
+            axes: [Axis::new(&profile, 0, nx), Axis::new(&profile, 1, nz)],
             fade: [vec![0.0; nx], vec![0.0; nz]],
             captured: true,
             skipping: true,
@@ -95,7 +95,7 @@ impl WaveGrid {
         let profile = Profile::new(self.desc.pml_width, self.stepping.a, moving);
         if profile != self.profile {
             self.profile = profile;
-            self.axes = [Axis::new(&profile, self.state.nx), Axis::new(&profile, self.state.nz)];
+            self.axes = [Axis::new(&profile, 0, self.state.nx), Axis::new(&profile, 1, self.state.nz)];
         }
     }
 

@@ -23,7 +23,10 @@ pub(crate) const REACH: usize = 2;
 pub(crate) struct Cells {
     pub(crate) nx: usize,
     pub(crate) nz: usize,
+    /// (c dt / h)^2 along x.
     pub(crate) a: Vec<f32>,
+    /// a along z over a along x.
+    aspect: f32,
     pub(crate) r: Vec<f32>,
     /// On the faces before each cell along x and z.
     pub(crate) faces: [Vec<f32>; 2],
@@ -117,9 +120,10 @@ impl Ground {
         let [nx, nz] = tiles.cells;
         let Coefficient { a, r } = self.law.plain();
         let all = |v: f32| vec![v; nx * nz];
-        let own = all(a * self.law.weights[0]);
-        let (faces, own, weights) = ([all(a), all(a)], [own.clone(), own], self.law.weights);
-        self.cells = Some(Cells { nx, nz, a: all(a), r: all(r), faces, own, weights });
+        let (weights, aspect) = (self.law.weights, self.law.aspect);
+        let faces = [a, a * aspect];
+        let own = faces.map(|face| all(face * weights[0]));
+        self.cells = Some(Cells { nx, nz, a: all(a), aspect, r: all(r), faces: faces.map(all), own, weights });
         true
     }
 
@@ -193,12 +197,13 @@ impl Cells {
             for i in widened(x, 1, nx) {
                 let at = j * nx + i;
                 let row = nx as isize;
-                for (axis, index, step, ends) in
-                    [(0, i, 1, [(-row, j > 0), (row, j + 1 < self.nz)]), (1, j, nx, [(-1, i > 0), (1, i + 1 < nx)])]
-                {
+                for (axis, index, step, half, ends) in [
+                    (0, i, 1, 0.5, [(-row, j > 0), (row, j + 1 < self.nz)]),
+                    (1, j, nx, 0.5 * self.aspect, [(-1, i > 0), (1, i + 1 < nx)]),
+                ] {
                     let (mut face, mut own) = (0.0, 0.0);
                     if index > 0 && a[at] > 0.0 && a[at - step] > 0.0 {
-                        face = 0.5 * (a[at] + a[at - step]);
+                        face = half * (a[at] + a[at - step]);
                         let ended: f32 =
                             ends.map(|(step_end, inside)| walls(at, at - step, step_end, inside)).iter().sum();
                         own = face * (straight + beside * ended);

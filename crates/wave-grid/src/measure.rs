@@ -4,13 +4,14 @@ use crate::WaveGrid;
 
 impl WaveGrid {
     /// The invariant of the undamped scheme away from its border, m^4/s^2:
-    /// h^2/2 sum [ ((z - z_old)/dt)^2 - z_old div(a grad z)/dt^2 ] over open water. In f64, row by row.
+    /// hx hz / 2 sum [ ((z - z_old)/dt)^2 - z_old div(a grad z)/dt^2 ] over open water. In f64, row by row.
     pub fn energy(&self) -> f64 {
         let state = &self.state;
         let nx = state.nx;
         let (straight, beside) = self.desc.scheme.weights();
-        let a = self.stepping.a;
-        let (edge, corner) = (a * (straight - 2.0 * beside), a * 2.0 * beside);
+        let [ax, az] = self.stepping.a;
+        let (edge_x, edge_z) = (ax * straight - az * 2.0 * beside, az * straight - ax * 2.0 * beside);
+        let corner = (ax + az) * beside;
         let z = |i: usize| f64::from(state.z[i]);
         let cells = self.cells();
         let mut sum = 0.0;
@@ -24,21 +25,22 @@ impl WaveGrid {
                     }
                     continue;
                 }
-                let cross = z(at - 1) + z(at + 1) + z(at - nx) + z(at + nx) - 4.0 * z(at);
+                let along_x = z(at - 1) + z(at + 1) - 2.0 * z(at);
+                let along_z = z(at - nx) + z(at + nx) - 2.0 * z(at);
                 let diagonal = z(at - nx - 1) + z(at - nx + 1) + z(at + nx - 1) + z(at + nx + 1) - 4.0 * z(at);
                 let rate = z(at) - old;
-                sum += rate * rate - old * (edge * cross + corner * diagonal);
+                sum += rate * rate - old * (edge_x * along_x + edge_z * along_z + corner * diagonal);
             }
         }
-        let h = f64::from(self.desc.cell_size);
-        0.5 * h * h * sum / (self.stepping.dt * self.stepping.dt)
+        let [hx, hz] = self.desc.cell_size.map(f64::from);
+        0.5 * hx * hz * sum / (self.stepping.dt * self.stepping.dt)
     }
 
     /// Water above the ambient level, cubic metres, walls left out.
     pub fn volume(&self) -> f64 {
-        let h = f64::from(self.desc.cell_size);
+        let [hx, hz] = self.desc.cell_size.map(f64::from);
         let open = |at: usize| self.cells().is_none_or(|cells| cells.is_open(at));
-        h * h * self.state.z.iter().enumerate().filter(|(at, _)| open(*at)).map(|(_, z)| f64::from(*z)).sum::<f64>()
+        hx * hz * self.state.z.iter().enumerate().filter(|(at, _)| open(*at)).map(|(_, z)| f64::from(*z)).sum::<f64>()
     }
 
     /// Whether no value is NaN or infinite.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 
 use crate::{GridDesc, Stepping};
 
@@ -54,16 +54,18 @@ impl std::fmt::Debug for SharedMedium {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CellLaw {
     pub(crate) deep_speed: f32,
-    pub(crate) cell_size: f64,
-    /// `(c dt / h)^2` in deep water.
+    pub(crate) cell_size: DVec2,
+    /// `(c dt / h)^2` along x in deep water.
     a: f32,
+    /// a along z over a along x.
+    pub(crate) aspect: f32,
     half_dt: f32,
     damping: f32,
     /// Of a face's own jump and of the two beside it.
     pub(crate) weights: [f32; 2],
 }
 
-/// Coefficients of a cell: a = (c dt / h)^2, at most 0 for walls; r = 1 / (1 + sigma dt / 2), 0 for what is not water.
+/// Coefficients of a cell: a = (c dt / h)^2 along x, at most 0 for walls; r = 1 / (1 + sigma dt / 2), 0 for what is not water.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coefficient {
     pub(crate) a: f32,
@@ -81,8 +83,9 @@ impl CellLaw {
         Self {
             weights: [straight as f32, beside as f32],
             deep_speed: desc.wave_speed,
-            cell_size: f64::from(desc.cell_size),
-            a: stepping.a as f32,
+            cell_size: Vec2::from(desc.cell_size).as_dvec2(),
+            a: stepping.a[0] as f32,
+            aspect: stepping.aspect(),
             half_dt: (0.5 * stepping.dt) as f32,
             damping: desc.damping,
         }

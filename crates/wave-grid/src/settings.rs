@@ -78,7 +78,7 @@ impl WaveGrid {
 
     /// The fade as drawn, 0 to 1, at a world point: 0 outside the window and outside the contour of fed sides.
     pub fn fade_at(&self, world: DVec2) -> f32 {
-        let at = world / f64::from(self.desc.cell_size);
+        let at = world / self.place.window.h();
         let fade = |axis: usize, x: f64| self.place.fade_of(axis, x - self.place.window.corner[axis] as f64);
         fade(0, at.x) * fade(1, at.y)
     }

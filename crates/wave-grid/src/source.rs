@@ -46,8 +46,10 @@ pub enum Source {
 pub(crate) struct Footprint {
     /// Centre, cells from the corner.
     pub(crate) center: [f32; 2],
-    /// Where it ends, cells.
+    /// Where it ends along x, cells.
     pub(crate) outer: f32,
+    /// Reach along x over reach along z, in cells.
+    pub(crate) stretch: f32,
     /// Height in the middle, metres.
     pub(crate) height: f32,
     /// Foam in the middle.
@@ -73,13 +75,12 @@ impl Footprint {
         if !(center.is_finite() && radius.is_finite() && radius >= 0.0 && volume.is_finite() && foam.is_finite()) {
             return None;
         }
-        let h = f64::from(window.cell_size);
+        let h = window.cell_size.map(f64::from);
         let at = window.cells_from_corner(center, origin);
-        let radius = (f64::from(radius) / h).max(SOFT);
-        let outer = radius + SOFT;
+        let outer = h.map(|h| (f64::from(radius) / h).max(SOFT) + SOFT);
         let mut range = [[0; 2]; 2];
         for (k, r) in range.iter_mut().enumerate() {
-            let (low, high) = (at[k] - outer, at[k] + outer);
+            let (low, high) = (at[k] - outer[k], at[k] + outer[k]);
             if low < rim as f64 || high > (window.cells[k] as usize - rim) as f64 {
                 return None;
             }
@@ -87,7 +88,8 @@ impl Footprint {
         }
         let mut footprint = Self {
             center: [at.x as f32, at.y as f32],
-            outer: outer as f32,
+            outer: outer[0] as f32,
+            stretch: (outer[0] / outer[1]) as f32,
             height: 0.0,
             foam: foam.clamp(0.0, 1.0),
             range,
@@ -106,7 +108,7 @@ impl Footprint {
             if sum < LEAST_OPEN * total {
                 return None;
             }
-            let height = f64::from(volume) / (h * h * sum);
+            let height = f64::from(volume) / (h[0] * h[1] * sum);
             footprint.height = height.clamp(-f64::from(HEIGHT_LIMIT), f64::from(HEIGHT_LIMIT)) as f32;
         }
         Some(footprint)
@@ -115,7 +117,7 @@ impl Footprint {
     /// Weight of cell (i, j): a smoothstep from 1 in the middle to 0 at the end.
     pub(crate) fn weight(&self, i: usize, j: usize) -> f32 {
         let dx = i as f32 + 0.5 - self.center[0];
-        let dz = j as f32 + 0.5 - self.center[1];
+        let dz = self.stretch * (j as f32 + 0.5 - self.center[1]);
         let t = ((self.outer - (dx * dx + dz * dz).sqrt()) / self.outer).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     }

@@ -16,21 +16,26 @@ const FED_FADE: f64 = 4.0;
 /// Cell indices beyond this are refused: f64 no longer resolves a cell there.
 const FARTHEST: f64 = 1e14;
 
-/// A rectangle of world cells. Cell (i, j) is centred at world ((corner.x + i + .5) h, (corner.z + j + .5) h).
+/// A rectangle of world cells. Cell (i, j) is centred at world ((corner.x + i + .5) h.x, (corner.z + j + .5) h.z).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
     /// World index of cell (0, 0).
     pub corner: [i64; 2],
     /// Cells along x and z.
     pub cells: [u32; 2],
-    /// Cell size h, metres.
-    pub cell_size: f32,
+    /// Cell size h along x and z, metres.
+    pub cell_size: [f32; 2],
 }
 
 impl Window {
+    /// Cell size, metres.
+    pub(crate) fn h(&self) -> DVec2 {
+        Vec2::from(self.cell_size).as_dvec2()
+    }
+
     /// World position of the corner, metres.
     pub fn world_corner(&self) -> DVec2 {
-        DVec2::new(self.corner[0] as f64, self.corner[1] as f64) * f64::from(self.cell_size)
+        DVec2::new(self.corner[0] as f64, self.corner[1] as f64) * self.h()
     }
 
     /// Position of the corner relative to `origin`, metres.
@@ -42,7 +47,7 @@ impl Window {
     /// A local point in units of cells from the corner; cell (i, j) covers [i, i + 1) x [j, j + 1).
     pub fn cells_from_corner(&self, point: Vec2, origin: DVec2) -> DVec2 {
         let corner = self.world_corner() - origin;
-        (DVec2::new(f64::from(point.x), f64::from(point.y)) - corner) / f64::from(self.cell_size)
+        (DVec2::new(f64::from(point.x), f64::from(point.y)) - corner) / self.h()
     }
 
     /// Cells of the window's first tile that lie before its corner, per axis; tiles stand on world multiples of 16.
@@ -88,16 +93,14 @@ impl Place {
     }
 
     fn stray(&self, target: DVec2) -> [f64; 2] {
-        let h = f64::from(self.window.cell_size);
-        let at = [target.x / h, target.y / h];
+        let at = (target / self.window.h()).to_array();
         std::array::from_fn(|k| at[k] - (self.window.corner[k] as f64 + f64::from(self.window.cells[k]) / 2.0))
     }
 
     /// Brings the middle within the dead-band of a world point. Points that are not finite or absurdly far are ignored.
     pub(crate) fn follow(&mut self, target: DVec2) -> Move {
-        let h = f64::from(self.window.cell_size);
         let stray = self.stray(target);
-        if !stray.iter().all(|s| s.is_finite()) || (target / h).abs().max_element() > FARTHEST {
+        if !stray.iter().all(|s| s.is_finite()) || (target / self.window.h()).abs().max_element() > FARTHEST {
             return Move::Stay;
         }
         let shift: [i64; 2] = std::array::from_fn(|k| {

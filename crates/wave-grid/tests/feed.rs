@@ -29,7 +29,7 @@ impl Plane {
             Scheme::FivePoint => 4.0 - 2.0 * cx - 2.0 * cz,
             Scheme::NinePoint => (2.0 / 3.0) * (4.0 - 2.0 * cx - 2.0 * cz) + (1.0 / 6.0) * (4.0 - 4.0 * cx * cz),
         };
-        let turn = 2.0 * (grid.stepping().a * lambda / 4.0).sqrt().asin();
+        let turn = 2.0 * (grid.stepping().a[0] * lambda / 4.0).sqrt().asin();
         Self { k, turn, ramp: 12.0 * TAU }
     }
 
@@ -55,7 +55,7 @@ fn points(line: &FeedLine, row: usize, h: f64) -> impl Iterator<Item = DVec2> {
 
 fn tick(grid: &mut WaveGrid, lines: &[FeedLine], wave: &Plane, tick: u32) {
     let substeps = grid.stepping().substeps;
-    let h = f64::from(grid.desc().cell_size);
+    let h = f64::from(grid.desc().cell_size[0]);
     grid.tick_fed(&mut |line, substep, rows| {
         let time = f64::from(tick * substeps + substep);
         for (row, heights) in rows.into_iter().enumerate() {

@@ -211,7 +211,7 @@ fn bad_descriptions_are_named() {
     };
     for (message, part) in [
         (bad(|d| d.cells = [16, 64]), "cells[0] = 16"),
-        (bad(|d| d.cell_size = 0.0), "cell_size = 0"),
+        (bad(|d| d.cell_size[0] = 0.0), "cell_size[0] = 0"),
         (bad(|d| d.wave_speed = f32::NAN), "wave_speed = NaN"),
         (bad(|d| d.pml_width = 40), "pml_width = 40"),
         (bad(|d| d.damping = -1.0), "damping = -1"),
@@ -225,7 +225,7 @@ fn bad_descriptions_are_named() {
     assert!(matches!(WaveGrid::new(tight), Err(GridError::Unstable { .. })));
     let five = GridDesc { scheme: Scheme::FivePoint, wave_speed: 60.0, ..Default::default() };
     let stepping = five.stepping().unwrap();
-    assert!(stepping.a <= 0.49 && stepping.substeps == 3, "{stepping:?}");
+    assert!(stepping.a[0] <= 0.49 && stepping.substeps == 3, "{stepping:?}");
     let mut grid = WaveGrid::new(GridDesc::default()).unwrap();
     assert!(grid.impose(&[0.0; 3], &[0.0; 3]).is_err());
 }

@@ -24,7 +24,7 @@ impl Medium for Quay {
 }
 
 fn desc(scheme: Scheme) -> GridDesc {
-    GridDesc { cells: [160, 96], cell_size: 0.5, wave_speed: 24.0, scheme, ..Default::default() }
+    GridDesc { cells: [160, 96], cell_size: [0.5; 2], wave_speed: 24.0, scheme, ..Default::default() }
 }
 
 fn stone(x: f32, z: f32, radius: f32, volume: f32) -> Source {

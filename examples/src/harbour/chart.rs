@@ -61,7 +61,7 @@ pub fn basin(preset: Preset, period: f32) -> GridDesc {
     GridDesc {
         follow: Follow::Fixed(center),
         cells,
-        cell_size,
+        cell_size: [cell_size; 2],
         wave_speed: (1.56 * period).clamp(6.0, 16.0),
         feed: Edges { low_x: true, low_z: true, high_z: true, ..Edges::default() },
         ..preset.grid()

@@ -20,7 +20,8 @@ struct GridParams {
     deep: f32,
     foam_depth: f32,
     foam_splash: f32,
-    pad: vec2<u32>,
+    peak_z: f32,
+    aspect: f32,
 }
 
 struct GridSource {
@@ -28,7 +29,7 @@ struct GridSource {
     outer: f32,
     height: f32,
     foam: f32,
-    pad: u32,
+    stretch: f32,
 }
 
 struct GridDispatch {

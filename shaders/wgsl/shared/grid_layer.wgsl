@@ -22,8 +22,8 @@ fn foam_excess(
 }
 
 // Sum of the jumps to the four neighbours that are no wall.
-fn open_bend(s: Row, c: Row, n: Row, faces: Fluxes) -> vec4<f32> {
+fn open_bend(s: Row, c: Row, n: Row, faces: Fluxes, aspect: f32) -> vec4<f32> {
     let none = vec4<f32>(0.0);
     return (select(none, c.west - c.here, faces.west > none) + select(none, c.east - c.here, faces.east > none))
-        + (select(none, s.here - c.here, faces.south > none) + select(none, n.here - c.here, faces.north > none));
+        + aspect * (select(none, s.here - c.here, faces.south > none) + select(none, n.here - c.here, faces.north > none));
 }

@@ -1,3 +1,9 @@
+// The lesser side of a grid's cells, metres.
+fn grid_cell(index: u32) -> f32 {
+    let sides = surface_table.grids[index].cell_size;
+    return min(sides.x, sides.y);
+}
+
 // Height of a grid at a point between its four nearest cells; zero outside its window.
 fn grid_height(index: u32, point: vec2<f32>) -> f32 {
     let grid = surface_table.grids[index];
@@ -21,7 +27,7 @@ fn grid_height(index: u32, point: vec2<f32>) -> f32 {
 fn grids_vertex(point: vec2<f32>, footprint: f32) -> f32 {
     var sum = 0.0;
     for (var g = 0u; g < surface_table.grid_count; g++) {
-        let width = footprint / surface_table.grids[g].cell_size;
+        let width = footprint / grid_cell(g);
         if width < 0.5 {
             sum += grid_at(g, point).x;
         } else if width < 32.0 {
@@ -42,7 +48,7 @@ fn grids_vertex(point: vec2<f32>, footprint: f32) -> f32 {
 fn grids_look(point: vec2<f32>, footprint: f32) -> vec4<f32> {
     var sum = vec4<f32>(0.0);
     for (var g = 0u; g < surface_table.grid_count; g++) {
-        let width = footprint / surface_table.grids[g].cell_size;
+        let width = footprint / grid_cell(g);
         if width < 32.0 {
             let waves = 1.0 - smoothstep(2.0, 8.0, width);
             let foam = 1.0 - smoothstep(8.0, 32.0, width);

@@ -1,9 +1,9 @@
 struct SurfaceGrid {
     corner: vec2<f32>,
-    cell_size: f32,
-    base: u32,
+    cell_size: vec2<f32>,
     cells: vec2<u32>,
-    pad: vec2<u32>,
+    base: u32,
+    pad: u32,
 }
 
 // The rasters of the land: local place of texel (0, 0), texel size, whether there are any, texels along x and z; and the
@@ -40,8 +40,8 @@ fn grid_at(index: u32, point: vec2<f32>) -> vec4<f32> {
     let t = x - base;
     let wx = cubic_weights(t.x);
     let wz = cubic_weights(t.y);
-    let dx = cubic_slopes(t.x) / grid.cell_size;
-    let dz = cubic_slopes(t.y) / grid.cell_size;
+    let dx = cubic_slopes(t.x) / grid.cell_size.x;
+    let dz = cubic_slopes(t.y) / grid.cell_size.y;
     let first = vec2<u32>(base) - 1u;
     var sum = vec4<f32>(0.0);
     for (var j = 0u; j < 4u; j++) {

@@ -48,7 +48,7 @@ fn a_medium_is_the_same_on_both_sides() {
     let descs = [
         GridDesc { cells: [128, 128], wave_speed: 25.0, ..Default::default() },
         GridDesc { cells: [150, 101], wave_speed: 40.0, scheme: Scheme::FivePoint, damping: 0.1, ..Default::default() },
-        GridDesc { cells: [96, 112], wave_speed: 45.0, pml_width: 8, ..Default::default() },
+        GridDesc { cells: [96, 112], cell_size: [0.5, 0.8], wave_speed: 45.0, pml_width: 8, ..Default::default() },
     ];
     let mut twins = twins(&context, &descs);
     let ticks = 500;

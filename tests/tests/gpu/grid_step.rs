@@ -109,7 +109,7 @@ fn a_thousand_ticks_equal_the_cpu() {
             damping: 0.1,
             ..Default::default()
         },
-        GridDesc { cells: [96, 112], wave_speed: 45.0, pml_width: 8, ..Default::default() },
+        GridDesc { cells: [96, 112], cell_size: [0.5, 0.8], wave_speed: 45.0, pml_width: 8, ..Default::default() },
     ];
     let mut twins = twins(&context, &descs);
     let mut peak = [0.0f32; 3];
@@ -151,7 +151,7 @@ fn a_thousand_ticks_equal_the_cpu() {
 #[test]
 fn growing_keeps_the_waves_and_sleep_clears_them() {
     let context = Context::new();
-    let small = GridDesc { cells: [64, 64], wave_speed: 20.0, cell_size: 2.0, tick: 0.25, ..Default::default() };
+    let small = GridDesc { cells: [64, 64], wave_speed: 20.0, cell_size: [2.0; 2], tick: 0.25, ..Default::default() };
     let mut twins = twins(&context, &[small]);
     twins.add(0, stone(0.0, 0.0, 8.0, 500.0));
     for _ in 0..2 {

@@ -13,7 +13,7 @@ pub(crate) struct Mirror {
 }
 
 impl Mirror {
-    pub(crate) fn new(cells: [u32; 2], cell_size: f32) -> Self {
+    pub(crate) fn new(cells: [u32; 2], cell_size: [f32; 2]) -> Self {
         Self { window: Window { corner: [0; 2], cells, cell_size }, cells: Vec::new(), tick: None }
     }
 
@@ -62,7 +62,7 @@ impl Mirror {
             let first = (base.y as usize - 1 + j) * nx + base.x as usize - 1;
             for (i, [height, _]) in self.cells[first..first + 4].iter().enumerate() {
                 sample.height += wx[i] * wz[j] * height;
-                sample.slope += Vec2::new(dx[i] * wz[j], wx[i] * dz[j]) * (*height / self.window.cell_size);
+                sample.slope += Vec2::new(dx[i] * wz[j], wx[i] * dz[j]) * *height / Vec2::from(self.window.cell_size);
             }
         }
         Some(sample)
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn a_plane_comes_back_as_it_was_sent() {
-        let mut mirror = Mirror::new([48, 32], 0.5);
+        let mut mirror = Mirror::new([48, 32], [0.5; 2]);
         let corner = [-10, 4];
         let plane = |x: f32, z: f32| 0.2 * x - 0.3 * z + 1.0;
         let cells: Vec<[f32; 2]> = (0..48 * 32)

@@ -139,7 +139,7 @@ impl SurfaceBinding {
                 cell_size: window.cell_size,
                 base: grid.base,
                 cells: window.cells,
-                pad: [0; 2],
+                pad: 0,
             };
             table.grid_count += 1;
         }

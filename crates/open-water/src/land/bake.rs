@@ -149,8 +149,8 @@ impl DepthTable {
 
 impl Carrier<'_> {
     /// How many of the longest cascades a grid can carry: those whose shortest wave has six cells.
-    pub(crate) fn capacity(ocean: &Ocean, cell_size: f32) -> usize {
-        let fits = |top: f64| std::f64::consts::TAU / top >= 6.0 * f64::from(cell_size);
+    pub(crate) fn capacity(ocean: &Ocean, cell_size: [f32; 2]) -> usize {
+        let fits = |top: f64| std::f64::consts::TAU / top >= 6.0 * f64::from(cell_size[0].max(cell_size[1]));
         ocean.modes().iter().take_while(|modes| fits(modes.band[1].min(f64::MAX))).count()
     }
 
@@ -158,7 +158,7 @@ impl Carrier<'_> {
     pub(crate) fn check(&self, terrain: &Terrain) -> Result<(), OpenWaterError> {
         let window = self.grid.window();
         let low = window.world_corner();
-        let extent = glam::UVec2::from(window.cells).as_dvec2() * f64::from(window.cell_size);
+        let extent = glam::UVec2::from(window.cells).as_dvec2() * glam::Vec2::from(window.cell_size).as_dvec2();
         let (first, last) = (terrain.bed().corner(), terrain.bed().far_corner());
         let out = (first - low).max(low + extent - last).max_element();
         if out > 0.0 {
@@ -171,7 +171,7 @@ impl Carrier<'_> {
         }
         if self.cascades == 0 {
             let bound = "a sixth of the shortest wave of the longest cascade, or less";
-            let value = f64::from(window.cell_size);
+            let value = f64::from(window.cell_size[0].max(window.cell_size[1]));
             return Err(OpenWaterError::InvalidValue { field: "feed: cell_size", value, bound });
         }
         Ok(())

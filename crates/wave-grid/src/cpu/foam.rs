@@ -31,7 +31,7 @@ const GRAVITY: f32 = 9.81;
 /// Numbers of the foam's update.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FoamLaw {
-    /// Excess per metre of Laplacian (sum of neighbours minus 4 z): (c/h)^2 / (g RANGE).
+    /// Excess per metre of Laplacian (sum of neighbours minus 4 z, those along z times the aspect): (c/h)^2 / (g RANGE).
     pub(crate) scale: f32,
     /// ONSET / RANGE.
     pub(crate) onset: f32,
@@ -41,8 +41,10 @@ pub(crate) struct FoamLaw {
     pub(crate) keep: f32,
     /// Height where waves of the deep water's speed begin to break by depth, metres.
     pub(crate) depth: f32,
-    /// a of deep water.
+    /// a of deep water along x.
     pub(crate) deep: f32,
+    /// a along z over a along x.
+    pub(crate) aspect: f32,
     /// 1 / [`SPLASH`] per metre of rise in a sub-step.
     pub(crate) splash: f32,
 }
@@ -50,10 +52,11 @@ pub(crate) struct FoamLaw {
 impl FoamLaw {
     pub(crate) fn new(desc: &GridDesc, stepping: &Stepping) -> Self {
         let tick = desc.tick;
-        let speed = desc.wave_speed / desc.cell_size;
+        let speed = desc.wave_speed / desc.cell_size[0];
         Self {
             depth: SHALLOW * desc.wave_speed * desc.wave_speed / GRAVITY,
-            deep: stepping.a as f32,
+            deep: stepping.a[0] as f32,
+            aspect: stepping.aspect(),
             splash: 1.0 / (SPLASH * stepping.dt as f32),
             scale: speed * speed / (GRAVITY * RANGE),
             onset: ONSET / RANGE,
@@ -86,14 +89,15 @@ pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, cells: Option<&Cells>
             if tile.mode != Mode::Active {
                 continue;
             }
-            // No crest of the neighbourhood is high enough to break: the Laplacian is at most eight times the height.
+            // No crest of the neighbourhood is high enough to break: the Laplacian is at most eight times the height
+            // where cells are square.
             let around = (tz.saturating_sub(1)..(tz + 2).min(count_z))
                 .flat_map(|z| &tiles.row(z)[tx.saturating_sub(1)..(tx + 2).min(count_x)])
                 .fold(0.0f32, |most, t| most.max(t.height));
             let mixed = cells.filter(|_| tile.class == Class::Mixed);
             // Nor high enough against any depth, nor fast enough at any wall.
             let shore = mixed.is_some() && (around > FLAT || 2.0 * around * law.splash > 1.0);
-            if tile.foam > 0.0 || shore || 8.0 * around * law.scale > law.onset {
+            if tile.foam > 0.0 || shore || 4.0 * (1.0 + law.aspect) * around * law.scale > law.onset {
                 let (x, z) = (tiles.span(0, tx), tiles.span(1, tz));
                 let foam = match mixed {
                     Some(cells) => mixed_tile_foam(state, cells, x, z, law),
@@ -167,7 +171,7 @@ fn mixed_foam_row(foam: &mut [f32], row: &MixedRow, law: FoamLaw, most: &mut [f3
         let around = [(a_here[i], here[i]), (a_here[i + 2], here[i + 2])];
         let across = [(a_south[i + 1], south[i + 1]), (a_north[i + 1], north[i + 1])];
         let jump = |(a, other): (f32, f32)| if a > 0.0 { other - z } else { 0.0 };
-        let lap = (jump(around[0]) + jump(around[1])) + (jump(across[0]) + jump(across[1]));
+        let lap = (jump(around[0]) + jump(around[1])) + law.aspect * (jump(across[0]) + jump(across[1]));
         let steep = -lap * law.scale - law.onset;
         let high = 2.0 * z / (limit * greater(a, 1e-20)) - 2.0;
         let least = lesser(lesser(around[0].0, around[1].0), lesser(across[0].0, across[1].0));
@@ -205,7 +209,9 @@ fn foam_row(foam: &mut [f32], south: &[f32], row: &[f32], north: &[f32], law: Fo
     let (west, centre, east) = (&row[..n], &row[1..n + 1], &row[2..n + 2]);
     let (south, north, foam) = (&south[1..n + 1], &north[1..n + 1], &mut foam[..n]);
     for i in 0..n {
-        let lap = ((west[i] - centre[i]) + (east[i] - centre[i])) + ((south[i] - centre[i]) + (north[i] - centre[i]));
+        let (along_x, along_z) =
+            ((west[i] - centre[i]) + (east[i] - centre[i]), (south[i] - centre[i]) + (north[i] - centre[i]));
+        let lap = along_x + law.aspect * along_z;
         let excess = (-lap * law.scale - law.onset).clamp(0.0, 1.0);
         let f = foam[i] * law.keep + excess * law.growth;
         let f = if f > 1.0 { 1.0 } else { f };

@@ -8,10 +8,10 @@ use open_water_shaders::grid::TINY;
 /// Coefficients of the scheme, dt folded in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coefficients {
-    /// a w0: a face's own jump.
-    pub(crate) straight: f32,
-    /// a w1: the two jumps beside it.
-    pub(crate) beside: f32,
+    /// a w0 along x and z: a face's own jump.
+    pub(crate) straight: [f32; 2],
+    /// a w1 along x and z: the two jumps beside it.
+    pub(crate) beside: [f32; 2],
     /// s = sigma dt / 2.
     pub(crate) damping: f32,
 }
@@ -31,26 +31,28 @@ pub(crate) fn interior_row(old: &mut [f32], below: &[f32], row: &[f32], above: &
     let n = old.len();
     let scale = 1.0 / (1.0 + k.damping);
     let keep = (1.0 - k.damping) * scale;
-    let edge = scale * (k.straight - 2.0 * k.beside);
-    if k.beside == 0.0 {
+    let edge = [0, 1].map(|axis| scale * (k.straight[axis] - 2.0 * k.beside[1 - axis]));
+    // Square cells save a multiplication.
+    let cross = |x: f32, z: f32| if edge[0] == edge[1] { edge[0] * (x + z) } else { edge[0] * x + edge[1] * z };
+    if k.beside == [0.0; 2] {
         let (west, centre, east) = (&row[..n], &row[1..n + 1], &row[2..n + 2]);
         let (south, north) = (&below[1..n + 1], &above[1..n + 1]);
         for i in 0..n {
             let z = centre[i];
-            let cross = ((west[i] - z) + (east[i] - z)) + ((south[i] - z) + (north[i] - z));
-            old[i] = flush(z + (keep * (z - old[i]) + edge * cross));
+            let cross = cross((west[i] - z) + (east[i] - z), (south[i] - z) + (north[i] - z));
+            old[i] = flush(z + (keep * (z - old[i]) + cross));
         }
         return;
     }
-    let corner = scale * 2.0 * k.beside;
+    let corner = scale * (k.beside[0] + k.beside[1]);
     let (west, centre, east) = (&row[..n], &row[1..n + 1], &row[2..n + 2]);
     let (south_west, south, south_east) = (&below[..n], &below[1..n + 1], &below[2..n + 2]);
     let (north_west, north, north_east) = (&above[..n], &above[1..n + 1], &above[2..n + 2]);
     for i in 0..n {
         let z = centre[i];
-        let cross = ((west[i] - z) + (east[i] - z)) + ((south[i] - z) + (north[i] - z));
+        let cross = cross((west[i] - z) + (east[i] - z), (south[i] - z) + (north[i] - z));
         let diagonal = ((south_west[i] - z) + (south_east[i] - z)) + ((north_west[i] - z) + (north_east[i] - z));
-        old[i] = flush(z + (keep * (z - old[i]) + (edge * cross + corner * diagonal)));
+        old[i] = flush(z + (keep * (z - old[i]) + (cross + corner * diagonal)));
     }
 }
 
@@ -97,14 +99,15 @@ pub(crate) fn layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], r
     let scale = gain_z / (1.0 + k.damping);
     let rate = (1.0 - k.damping) * (1.0 - 0.5 * zj);
     let [[e_s, r_s, a_s], [e_n, r_n, a_n]] = r.edge_z;
+    let ([straight_x, straight_z], [beside_x, beside_z]) = (k.straight, k.beside);
     for i in 0..n {
         let z = centre[i];
         let (w, e, s, t) = (west[i], east[i], south[i], north[i]);
         let (sw, se, nw, ne) = (south_west[i], south_east[i], north_west[i], north_east[i]);
-        let flux_w = k.straight * (z - w) + k.beside * ((t - nw) + (s - sw));
-        let flux_e = k.straight * (e - z) + k.beside * ((ne - t) + (se - s));
-        let flux_s = k.straight * (z - s) + k.beside * ((e - se) + (w - sw));
-        let flux_n = k.straight * (t - z) + k.beside * ((ne - e) + (nw - w));
+        let flux_w = straight_x * (z - w) + beside_x * ((t - nw) + (s - sw));
+        let flux_e = straight_x * (e - z) + beside_x * ((ne - t) + (se - s));
+        let flux_s = straight_z * (z - s) + beside_z * ((e - se) + (w - sw));
+        let flux_n = straight_z * (t - z) + beside_z * ((ne - e) + (nw - w));
         let phi_w = keep0[i] * px0[i] + gain0[i] * (zj - edge0[i]) * flux_w;
         let phi_e = keep1[i] * px1[i] + gain1[i] * (zj - edge1[i]) * flux_e;
         let phi_s = a_s * pz0[i] + r_s * (node[i] - e_s) * flux_s;

@@ -42,5 +42,9 @@ pub(crate) fn sample(
         sum[2] += f * dz[j] * value;
         sum[3] += f * wz[j] * rate;
     }
-    GridSample { height: sum[0], slope: Vec2::new(sum[1], sum[2]) / window.cell_size, vertical_velocity: sum[3] / dt }
+    GridSample {
+        height: sum[0],
+        slope: Vec2::new(sum[1], sum[2]) / Vec2::from(window.cell_size),
+        vertical_velocity: sum[3] / dt,
+    }
 }

@@ -165,7 +165,7 @@ fn step_run(run: Range<usize>, band: Band, ground: Option<&Cells>, s: &Shared) {
 /// Weights of the jumps across face `at` of an axis and across the two beside it, `step` cells away.
 fn rim_weights(axis: usize, at: usize, step: usize, ground: Option<&Cells>, s: &Shared) -> [f32; 3] {
     let k = s.coefficients;
-    let Some(cells) = ground else { return [k.beside, k.straight, k.beside] };
+    let Some(cells) = ground else { return [k.beside[axis], k.straight[axis], k.beside[axis]] };
     let faces = &cells.faces[axis];
     let here = faces[at];
     let beside = |at: usize| cells.weights[1] * lesser(here, faces[at]);

@@ -45,8 +45,8 @@ impl Grid {
 
     /// Ticks after which what a source did has left: waves need some crossings, foam seven time constants.
     pub(super) fn rest_ticks(&self) -> u32 {
-        let [nx, nz] = self.desc.cells.map(|n| n as f32);
-        let crossing = (nx * nx + nz * nz).sqrt() * self.desc.cell_size / self.desc.wave_speed;
+        let [x, z] = std::array::from_fn(|k| self.desc.cells[k] as f32 * self.desc.cell_size[k]);
+        let crossing = (x * x + z * z).sqrt() / self.desc.wave_speed;
         // Between walls they stay longer.
         let crossings = if self.cells().is_some() { 32.0 } else { 8.0 };
         let seconds = (crossings * crossing).max(7.0 * crate::cpu::foam::DECAY);

@@ -1,6 +1,5 @@
 //! Turns a tick of all grids into what the passes read: parameters, tiles, sources.
 
-use bytemuck::Zeroable;
 use open_water_shaders::grid::{
     CLEARED, GridCell, GridParams, GridSource, GridTile, MEDIUM_THREADS, SHIFTED, STOOD, TickParams,
 };
@@ -203,14 +202,14 @@ impl Packer {
     /// Lists the grid's sources by tile, each tile's in the order they were added.
     fn place_sources(&mut self, slot: u32, grid: &Grid) {
         let corner = grid.place.window.corner;
-        for (Footprint { center, outer, height, foam, range }, placed_at) in &grid.sources {
+        for (Footprint { center, outer, stretch, height, foam, range }, placed_at) in &grid.sources {
             let since: [i64; 2] = std::array::from_fn(|k| corner[k] - placed_at[k]);
             let source = GridSource {
                 center: std::array::from_fn(|k| center[k] - since[k] as f32),
                 outer: *outer,
                 height: *height,
                 foam: *foam,
-                ..GridSource::zeroed()
+                stretch: *stretch,
             };
             let tiles: [std::ops::RangeInclusive<i64>; 2] = std::array::from_fn(|k| {
                 let world = |cell: usize| (cell as i64 + placed_at[k]).div_euclid(TILE as i64);
@@ -248,16 +247,17 @@ fn packed(grid: &Grid) -> GridParams {
         moved,
         thickness: profile.thickness as u32,
         exponent: profile.exponent as u32,
-        peak: profile.peak,
-        weights: [(grid.stepping.a * straight) as f32, (grid.stepping.a * beside) as f32],
+        peak: profile.peak[0],
+        weights: [(grid.stepping.a[0] * straight) as f32, (grid.stepping.a[0] * beside) as f32],
         damping: (0.5 * f64::from(grid.desc.damping) * grid.stepping.dt) as f32,
         foam_scale: grid.law.scale,
         foam_onset: grid.law.onset,
         foam_growth: grid.law.growth,
         foam_keep: grid.law.keep,
-        deep: grid.stepping.a as f32,
+        deep: grid.law.deep,
         foam_depth: grid.law.depth,
         foam_splash: grid.law.splash,
-        pad: [0; 2],
+        peak_z: profile.peak[1],
+        aspect: grid.law.aspect,
     }
 }
