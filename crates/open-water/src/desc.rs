@@ -5,7 +5,7 @@ use glam::{DVec2, Vec3};
 use ocean_spectrum::{CascadeDesc, OceanDesc, SeaState};
 use wave_grid::{Edges, Scheme};
 
-use crate::{BodyId, OpenWaterError};
+use crate::{Follow, OpenWaterError};
 
 /// Describes an [`OpenWater`](crate::OpenWater).
 #[derive(Debug, Clone)]
@@ -52,15 +52,6 @@ impl OpenWaterDesc {
             ..OceanDesc::default()
         }
     }
-}
-
-/// What a grid's window stays around.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Follow {
-    /// A body; the window stays where it is when the body is gone.
-    Body(BodyId),
-    /// A place in the world (x, z), metres.
-    Fixed(DVec2),
 }
 
 /// Where a grid is stepped.

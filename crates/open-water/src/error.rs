@@ -71,6 +71,9 @@ pub enum OpenWaterError {
     /// The handle's grid was removed, or is another water's.
     #[error("grid {0:?} does not exist (any more)")]
     UnknownGrid(GridId),
+    /// The grid follows something else than a point that the game sets.
+    #[error("grid {0:?} cannot be given a point to follow: it was not made with `Follow::Point`")]
+    NotAPoint(GridId),
     /// The handle's mooring was removed, or its body was, or it is another water's.
     #[error("mooring {0:?} does not exist (any more)")]
     UnknownMooring(MooringId),

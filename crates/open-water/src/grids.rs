@@ -9,6 +9,7 @@ use ocean_spectrum::Ocean;
 use slotmap::SlotMap;
 use wave_grid::{GridSample, Medium, Source, WaveGrid, Window};
 
+use crate::follow::Look;
 use crate::land::Feeding;
 use crate::{Follow, GridDesc, GridHome, GridId, OpenWaterError};
 
@@ -21,6 +22,8 @@ pub(crate) struct Grid {
     pub(crate) sim: Sim,
     /// Place in the pool of drawn heights, elements.
     pub(crate) base: u32,
+    /// The place it follows, with `Follow::Point`.
+    pub(crate) point: Option<DVec2>,
     /// How the ambient sea comes in.
     pub(crate) feeding: Option<Feeding>,
 }
@@ -117,11 +120,22 @@ impl Grid {
         }
     }
 
+    /// Width of the border in which nothing may disturb it, cells.
+    fn rim(&self) -> f64 {
+        f64::from(self.desc.pml_width) + 4.0
+    }
+
+    /// Extent of the window without its border, metres.
+    pub(crate) fn room(&self) -> DVec2 {
+        let inside = self.desc.cells.map(|n| f64::from(n) - 2.0 * self.rim());
+        DVec2::from(inside).max(DVec2::ONE) * f64::from(self.desc.cell_size)
+    }
+
     /// Whether a body at this place would disturb the grid inside its border layer.
     fn covers(&self, place: Vec2) -> bool {
         let window = self.window();
         let at = window.cells_from_corner(place, DVec2::ZERO);
-        let rim = f64::from(self.desc.pml_width) + 4.0;
+        let rim = self.rim();
         (0..2).all(|k| at[k] > rim && at[k] < f64::from(window.cells[k]) - rim)
     }
 }
@@ -156,7 +170,7 @@ impl Grids {
             return Err(OpenWaterError::InvalidValue { field: "grids", value, bound: "at most 32" });
         }
         let id = self.ids.insert(());
-        self.list.push(Grid { id, desc, sim, base: 0, feeding: None });
+        self.list.push(Grid { id, desc, sim, base: 0, point: None, feeding: None });
         self.place();
         Ok(id)
     }
@@ -202,16 +216,18 @@ impl Grids {
         self.get(id).is_ok_and(|grid| grid.desc.follow == Follow::Body(body))
     }
 
-    /// Moves the windows after what they follow and runs one tick of each, beginning at `time` seconds.
-    pub(crate) fn tick(&mut self, ocean: Option<&Ocean>, time: f64, place_of: impl Fn(crate::BodyId) -> Option<Vec3>) {
+    /// Moves the windows after what they follow.
+    pub(crate) fn center(&mut self, look: Option<&Look>, level: f32, place_of: impl Fn(crate::BodyId) -> Option<Vec3>) {
         for grid in &mut self.list {
-            let target = match grid.desc.follow {
-                Follow::Fixed(place) => Some(place),
-                Follow::Body(body) => place_of(body).map(|p| DVec2::new(p.x.into(), p.z.into())),
-            };
-            if let Some(target) = target {
+            if let Some(target) = grid.target(look, level, &place_of) {
                 grid.center_on(target);
             }
+        }
+    }
+
+    /// Runs one tick of each, beginning at `time` seconds.
+    pub(crate) fn tick(&mut self, ocean: Option<&Ocean>, time: f64) {
+        for grid in &mut self.list {
             grid.tick(ocean, time);
         }
     }

@@ -35,6 +35,7 @@ mod clock;
 mod cpu;
 mod desc;
 mod error;
+mod follow;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod grids;
@@ -52,8 +53,9 @@ mod water;
 pub use bodies::Pose;
 pub use clock::{Tick, Ticks};
 pub use cpu::surface::WaterSample;
-pub use desc::{Consumers, Follow, GridDesc, GridHome, OpenWaterDesc, Preset, View};
+pub use desc::{Consumers, GridDesc, GridHome, OpenWaterDesc, Preset, View};
 pub use error::OpenWaterError;
+pub use follow::{Follow, Look};
 pub use grids::MAX_GRIDS;
 pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shelter};
 pub use moorings::Mooring;

@@ -9,7 +9,8 @@ use crate::OpenWaterError;
 use crate::bodies::{Bodies, Pose};
 use crate::clock::{Clock, Tick, Ticks};
 use crate::cpu::surface::{Composite, WaterSample};
-use crate::desc::{Follow, GridDesc, GridHome, OpenWaterDesc};
+use crate::desc::{GridDesc, GridHome, OpenWaterDesc};
+use crate::follow::{Follow, Look};
 use crate::grids::{Grids, Sim};
 use crate::land::Shore;
 use crate::moorings::{Mooring, Moorings};
@@ -39,6 +40,8 @@ pub struct OpenWater {
     pub(crate) moorings: Moorings,
     pub(crate) reports: Reports,
     pub(crate) shore: Shore,
+    /// How the game said last that it looks at the water.
+    pub(crate) looking: Option<Look>,
     #[cfg(feature = "gpu")]
     pub(crate) gpu: Option<crate::gpu::Gpu>,
 }
@@ -61,6 +64,7 @@ impl OpenWater {
             moorings: Moorings::default(),
             reports: Reports::default(),
             shore: Shore::default(),
+            looking: None,
             desc,
             #[cfg(feature = "gpu")]
             gpu: None,
@@ -249,7 +253,8 @@ impl OpenWater {
         }
         let bodies = &self.bodies;
         let start = self.tick as f64 * f64::from(tick.dt);
-        self.grids.tick(self.ocean.as_ref(), start, |id| bodies.place_of(id));
+        self.grids.center(self.looking.as_ref(), self.shore.level, |id| bodies.place_of(id));
+        self.grids.tick(self.ocean.as_ref(), start);
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
             gpu.remote.tick(&mut self.grids);
