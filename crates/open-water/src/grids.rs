@@ -128,7 +128,7 @@ impl Grid {
     /// Extent of the window without its border, metres.
     pub(crate) fn room(&self) -> DVec2 {
         let inside = self.desc.cells.map(|n| f64::from(n) - 2.0 * self.rim());
-        DVec2::from(inside).max(DVec2::ONE) * f64::from(self.desc.cell_size)
+        DVec2::from(inside).max(DVec2::ONE) * Vec2::from(self.desc.cell_size).as_dvec2()
     }
 
     /// Whether a body at this place would disturb the grid inside its border layer.
