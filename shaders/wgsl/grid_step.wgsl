@@ -1,154 +1,103 @@
-// One sub-step in place over the older heights; see kernels.rs of wave-grid for the formulas. The layer keeps phi on the
-// edges before each cell; each cell recomputes the phi of the edges after it. Tiles without a cell of the layer have a
-// pipeline of their own, and so have those where the medium varies.
-override LAYER: bool = true;
-override LAST: bool = true;
-override MIXED: bool = true;
+// One sub-step in place over the older heights. A thread walks up a strip of eight columns and `ROWS` rows (a divisor of
+// 16) and keeps the rows below and here: what it costs is the number of loads and stores. A tile has 32 / `ROWS` such
+// threads, a workgroup `THREADS`, a multiple of that.
+override ROWS: u32 = 1u;
+override THREADS: u32 = 64u;
 
-fn read_row(first: u32, west: u32, here: u32, east: u32) -> Row {
-    let w = grid_heights[first + west].w;
-    let h = grid_heights[first + here];
-    let e = grid_heights[first + east].x;
-    return Row(vec4<f32>(w, h.xyz), h, vec4<f32>(h.yzw, e));
-}
-
-// The same of a, which stands at `first` in the medium.
-fn read_ground(first: u32, west: u32, here: u32, east: u32) -> Row {
-    let w = grid_ground[first + west].w;
-    let h = grid_ground[first + here];
-    let e = grid_ground[first + east].x;
-    return Row(vec4<f32>(w, h.xyz), h, vec4<f32>(h.yzw, e));
-}
-
-fn flush(x: vec4<f32>) -> vec4<f32> {
-    return select(x, vec4<f32>(0.0), abs(x) < vec4<f32>(TINY));
-}
-
-@compute @workgroup_size(TILE_THREADS)
+@compute @workgroup_size(THREADS)
 fn grid_step(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let tile = grid_tiles[grid_dispatch.first + group.x].x;
-    let grid = &grid_params[tile >> 16u];
-    let cells = (*grid).cells;
-    let torus = (*grid).torus;
-    let at = place_of(tile, local, (*grid).corner, torus);
+    let parts = 2u * TILE / ROWS;
+    let number = group.x * (THREADS / parts) + local / parts;
+    let part = local % parts;
+    let tile = grid_tiles[grid_dispatch.first + min(number, grid_dispatch.count - 1u)].x;
+    // Threads beyond the list walk no row.
+    let rows = select(0u, ROWS, number < grid_dispatch.count);
+    let grid = grid_params[tile >> 16u];
+    let torus = grid.torus;
     let columns = torus.x / 4u;
-    let west = select(at.column - 1u, columns - 1u, at.column == 0u);
-    let east = select(at.column + 1u, 0u, at.column + 1u == columns);
-    let south = select(at.row - 1u, torus.y - 1u, at.row == 0u);
-    let north = select(at.row + 1u, 0u, at.row + 1u == torus.y);
-    let stride = (*grid).stride;
-    let level = ((*grid).parity + grid_dispatch.substep) & 1u;
-    let first = (*grid).base + level * stride;
-    let offset = at.row * columns + at.column;
-    let old_at = (*grid).base + (1u - level) * stride + offset;
+    let column = (tile & 0xffu) * (TILE / 4u) + part % 2u * 2u;
+    let first_row = ((tile >> 8u) & 0xffu) * TILE + part / 2u * ROWS;
+    let west = select(column - 1u, columns - 1u, column == 0u);
+    let east = select(column + 2u, 0u, column + 2u == columns);
+    let south = select(first_row - 1u, torus.y - 1u, first_row == 0u);
 
-    let s = read_row(first + south * columns, west, at.column, east);
-    let c = read_row(first + at.row * columns, west, at.column, east);
-    let n = read_row(first + north * columns, west, at.column, east);
-    let old = grid_heights[old_at];
-    let z = c.here;
-    let straight = (*grid).weights.x;
-    let beside = (*grid).weights.y;
-    let aspect = (*grid).aspect;
-    let along_x = (c.west - z) + (c.east - z);
-    let along_z = (s.here - z) + (n.here - z);
+    let stride = grid.stride;
+    let level = (grid.parity + grid_dispatch.substep) & 1u;
+    let now = grid.base + level * stride;
+    let next = grid.base + (1u - level) * stride;
+    let foam = grid.base + 3u * stride;
+    let ground = grid.base / 2u;
+    let last = grid_dispatch.substep + 1u == grid.substeps;
+    let cells_a = unwrap(vec4<u32>(4u * column) + vec4<u32>(0u, 1u, 2u, 3u), grid.corner.x, torus.x);
+    let cells_b = unwrap(vec4<u32>(4u * column + 4u) + vec4<u32>(0u, 1u, 2u, 3u), grid.corner.x, torus.x);
 
-    // r = 1 / (1 + damping), and the faces' coefficients where they vary.
-    var r = vec4<f32>(1.0 / (1.0 + (*grid).damping));
-    var flux: Fluxes;
-    var faces: Fluxes;
-    var a_s: Row;
-    var a_c: Row;
-    var a_n: Row;
+    var s = read_heights(now + south * columns, west, column, east);
+    var c = read_heights(now + first_row * columns, west, column, east);
+    var ground_s: Wide;
+    var ground_c: Wide;
+    var ground_n: Wide;
     if MIXED {
-        let ground = (*grid).base / 2u;
-        a_s = read_ground(ground + south * columns, west, at.column, east);
-        a_c = read_ground(ground + at.row * columns, west, at.column, east);
-        a_n = read_ground(ground + north * columns, west, at.column, east);
-        r = grid_ground[ground + stride + offset];
-        faces = Fluxes(
-            face(a_c.west, a_c.here), face(a_c.here, a_c.east), face(a_s.here, a_c.here), face(a_c.here, a_n.here));
-        flux = mixed_fluxes(s, c, n, a_s, a_c, a_n, faces, (*grid).weights / (*grid).deep, aspect);
+        ground_s = read_ground(ground + south * columns, west, column, east);
+        ground_c = read_ground(ground + first_row * columns, west, column, east);
     }
-    var next: vec4<f32>;
-    if !LAYER {
-        var divergence: vec4<f32>;
-        if MIXED {
-            divergence = (flux.east - flux.west) + (flux.north - flux.south);
-        } else {
-            let diagonal = ((s.west - z) + (s.east - z)) + ((n.west - z) + (n.east - z));
-            divergence = (straight - 2.0 * aspect * beside) * along_x + (aspect * straight - 2.0 * beside) * along_z
-                + (1.0 + aspect) * beside * diagonal;
-        }
-        next = flush(z + ((2.0 * r - 1.0) * (z - old) + r * divergence));
-        grid_heights[old_at] = next;
-    } else {
-        if !MIXED {
-            flux = plain_fluxes(s, c, n, vec2<f32>(straight, aspect * straight), vec2<f32>(beside, aspect * beside));
-        }
-        let w = (*grid).thickness;
-        let x = vec4<f32>(at.i);
-        let y = vec4<f32>(f32(at.j));
-        let power = (*grid).exponent;
-        let peak = (*grid).peak;
-        let peak_z = (*grid).peak_z;
-        let zi = layer_z(x, cells.x, w, power, peak);
-        let zj = layer_z(y, cells.y, w, power, peak_z);
-        let memory = (*grid).base + level * stride;
-        var px = grid_memory[memory + offset];
-        var px_east = vec4<f32>(px.yzw, grid_memory[memory + at.row * columns + east].x);
-        var pz = grid_memory[memory + 2u * stride + offset];
-        var pz_north = grid_memory[memory + 2u * stride + north * columns + at.column];
-        if MIXED {
-            // What a new wall cut off.
-            px = select(vec4<f32>(0.0), px, faces.west > vec4<f32>(0.0));
-            px_east = select(vec4<f32>(0.0), px_east, faces.east > vec4<f32>(0.0));
-            pz = select(vec4<f32>(0.0), pz, faces.south > vec4<f32>(0.0));
-            pz_north = select(vec4<f32>(0.0), pz_north, faces.north > vec4<f32>(0.0));
-        }
-        let phi_w = next_phi(px, layer_z(x - 0.5, cells.x, w, power, peak), zj, flux.west);
-        let phi_e = next_phi(px_east, layer_z(x + 0.5, cells.x, w, power, peak), zj, flux.east);
-        let phi_s = next_phi(pz, layer_z(y - 0.5, cells.y, w, power, peak_z), zi, flux.south);
-        let phi_n = next_phi(pz_north, layer_z(y + 0.5, cells.y, w, power, peak_z), zi, flux.north);
-        let plain = (flux.east - flux.west) + (flux.north - flux.south);
-        let layer = ((phi_e + px_east) - (phi_w + px)) + ((phi_n + pz_north) - (phi_s + pz));
-        let scale = 1.0 / ((1.0 + 0.5 * zi) * (1.0 + 0.5 * zj));
-        let rate = (2.0 * r - 1.0) * (1.0 - 0.5 * zi) * (1.0 - 0.5 * zj);
-        next = flush(z + scale * (rate * (z - old) + r * ((plain + 0.5 * layer) - zi * zj * z)));
-        // The ring is zero; it stores the phi of the edges between itself and the last cells.
-        let columns_open = (at.i > vec4<u32>(0u)) & (at.i + 1u < vec4<u32>(cells.x));
-        let rows_open = at.j > 0u && at.j + 1u < cells.y;
-        let edge_x = (at.i > vec4<u32>(0u)) & (at.i < vec4<u32>(cells.x)) & vec4<bool>(rows_open);
-        let edge_z = columns_open & vec4<bool>(at.j > 0u && at.j < cells.y);
-        let next_memory = (*grid).base + (1u - level) * stride;
-        grid_memory[next_memory + offset] = select(vec4<f32>(0.0), flush(phi_w), edge_x);
-        grid_memory[next_memory + 2u * stride + offset] = select(vec4<f32>(0.0), flush(phi_s), edge_z);
-        grid_heights[old_at] = select(vec4<f32>(0.0), next, columns_open & vec4<bool>(rows_open));
+    var a: Own;
+    var b: Own;
+    a.i = cells_a;
+    b.i = cells_b;
+    if LAYER {
+        a.pz_north = grid_memory[now + 2u * stride + first_row * columns + column];
+        b.pz_north = grid_memory[now + 2u * stride + first_row * columns + column + 1u];
     }
-
-    if LAST {
-        let last = grid_dispatch.substep + 1u == (*grid).substeps;
-        let foam_at = (*grid).base + 3u * stride + offset;
-        let foam = grid_heights[foam_at];
-        var bend = along_x + aspect * along_z;
+    for (var k = 0u; k < rows; k++) {
+        let row = first_row + k;
+        let north = select(row + 1u, 0u, row + 1u == torus.y) * columns;
+        let at = row * columns + column;
+        let n = read_heights(now + north, west, column, east);
+        a.j = unwrap(vec4<u32>(row), grid.corner.y, torus.y).x;
+        b.j = a.j;
+        a.old = grid_heights[next + at];
+        b.old = grid_heights[next + at + 1u];
         if MIXED {
-            bend = open_bend(s, c, n, faces, aspect);
+            ground_n = read_ground(ground + north, west, column, east);
+            a.r = grid_ground[ground + stride + at];
+            b.r = grid_ground[ground + stride + at + 1u];
         }
-        var excess = clamp(-bend * (*grid).foam_scale - (*grid).foam_onset, vec4<f32>(0.0), vec4<f32>(1.0));
+        if LAYER {
+            a.px = grid_memory[now + at];
+            b.px = grid_memory[now + at + 1u];
+            a.px_east = vec4<f32>(a.px.yzw, b.px.x);
+            b.px_east = vec4<f32>(b.px.yzw, grid_memory[now + row * columns + east].x);
+            a.pz = a.pz_north;
+            b.pz = b.pz_north;
+            a.pz_north = grid_memory[now + 2u * stride + north + column];
+            b.pz_north = grid_memory[now + 2u * stride + north + column + 1u];
+        }
+        if LAST {
+            a.foam = grid_heights[foam + at];
+            b.foam = grid_heights[foam + at + 1u];
+        }
+        let to_a = advance(grid, s.a, c.a, n.a, ground_s.a, ground_c.a, ground_n.a, a);
+        let to_b = advance(grid, s.b, c.b, n.b, ground_s.b, ground_c.b, ground_n.b, b);
+        grid_heights[next + at] = to_a.z;
+        grid_heights[next + at + 1u] = to_b.z;
+        if LAYER {
+            grid_memory[next + at] = to_a.px;
+            grid_memory[next + at + 1u] = to_b.px;
+            grid_memory[next + 2u * stride + at] = to_a.pz;
+            grid_memory[next + 2u * stride + at + 1u] = to_b.pz;
+        }
+        if LAST {
+            grid_heights[foam + at] = select(a.foam, to_a.foam, vec4<bool>(last));
+            grid_heights[foam + at + 1u] = select(b.foam, to_b.foam, vec4<bool>(last));
+        }
+        s = c;
+        c = n;
         if MIXED {
-            let limit = (*grid).foam_depth / (*grid).deep;
-            excess = foam_excess(excess, z, next, a_c, min(a_s.here, a_n.here), limit, (*grid).foam_splash);
-            excess = select(vec4<f32>(0.0), excess, r > vec4<f32>(0.0));
+            ground_s = ground_c;
+            ground_c = ground_n;
         }
-        let open = (at.i > vec4<u32>(0u)) & (at.i + 1u < vec4<u32>(cells.x)) & vec4<bool>(at.j > 0u && at.j + 1u < cells.y);
-        var keep = vec4<f32>((*grid).foam_keep);
-        if MIXED {
-            keep = select(vec4<f32>(0.0), keep, r > vec4<f32>(0.0));
-        }
-        let foamed = min(foam * keep + excess * (*grid).foam_growth, vec4<f32>(1.0));
-        grid_heights[foam_at] = select(foam, select(vec4<f32>(0.0), foamed, open), vec4<bool>(last));
     }
 }

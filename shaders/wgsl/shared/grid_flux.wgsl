@@ -1,10 +1,3 @@
-// A row of four cells with those before and after each.
-struct Row {
-    west: vec4<f32>,
-    here: vec4<f32>,
-    east: vec4<f32>,
-}
-
 // Fluxes through the faces of a cell, and the coefficients of those faces where they vary.
 struct Fluxes {
     west: vec4<f32>,

@@ -11,6 +11,39 @@ fn next_phi(phi: vec4<f32>, e: vec4<f32>, z: vec4<f32>, flux: vec4<f32>) -> vec4
     return (1.0 - 0.5 * e) * gain * phi + gain * (z - e) * flux;
 }
 
+// Heights and phi after the step; `faces` are the faces' coefficients where the medium varies.
+fn layer_next(grid: GridParams, z: vec4<f32>, flux: Fluxes, faces: Fluxes, r: vec4<f32>, own: Own) -> Next {
+    let none = vec4<f32>(0.0);
+    let w = grid.thickness;
+    let power = grid.exponent;
+    let n = grid.cells;
+    let x = vec4<f32>(own.i);
+    let y = vec4<f32>(f32(own.j));
+    let zi = layer_z(x, n.x, w, power, grid.peak);
+    let zj = layer_z(y, n.y, w, power, grid.peak_z);
+    var px = own.px;
+    var px_east = own.px_east;
+    var pz = own.pz;
+    var pz_north = own.pz_north;
+    if MIXED {
+        // What a new wall cut off.
+        px = select(none, px, faces.west > none);
+        px_east = select(none, px_east, faces.east > none);
+        pz = select(none, pz, faces.south > none);
+        pz_north = select(none, pz_north, faces.north > none);
+    }
+    let phi_w = next_phi(px, layer_z(x - 0.5, n.x, w, power, grid.peak), zj, flux.west);
+    let phi_e = next_phi(px_east, layer_z(x + 0.5, n.x, w, power, grid.peak), zj, flux.east);
+    let phi_s = next_phi(pz, layer_z(y - 0.5, n.y, w, power, grid.peak_z), zi, flux.south);
+    let phi_n = next_phi(pz_north, layer_z(y + 0.5, n.y, w, power, grid.peak_z), zi, flux.north);
+    let plain = (flux.east - flux.west) + (flux.north - flux.south);
+    let layer = ((phi_e + px_east) - (phi_w + px)) + ((phi_n + pz_north) - (phi_s + pz));
+    let scale = 1.0 / ((1.0 + 0.5 * zi) * (1.0 + 0.5 * zj));
+    let rate = (2.0 * r - 1.0) * (1.0 - 0.5 * zi) * (1.0 - 0.5 * zj);
+    let next = flush(z + scale * (rate * (z - own.old) + r * ((plain + 0.5 * layer) - zi * zj * z)));
+    return Next(next, phi_w, phi_s, none);
+}
+
 // Waves high against the depth and water that rises fast at a wall break too; see foam.rs of wave-grid.
 fn foam_excess(
     steep: vec4<f32>, z: vec4<f32>, next: vec4<f32>, a: Row, a_across: vec4<f32>, limit: f32, splash: f32,

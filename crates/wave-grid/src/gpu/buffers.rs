@@ -126,7 +126,7 @@ impl Buffers {
     ) -> &wgpu::BindGroup {
         self.uniforms.clear();
         for tick in ticks {
-            for Work { first, substep, count, .. } in tick.dispatches() {
+            for Work { first, substep, count, .. } in tick.dispatches(passes.shape) {
                 let mut slot = Slot::zeroed();
                 slot[0] = GridDispatch { first, substep, count, pad: 0 };
                 self.uniforms.push(slot);

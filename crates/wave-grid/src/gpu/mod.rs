@@ -195,7 +195,7 @@ impl GpuGrids {
 
     /// Dispatches that the next [`Self::encode`] will encode; zero when all grids sleep.
     pub fn pending_dispatches(&self) -> usize {
-        self.ticks.iter().map(|tick| tick.dispatches().count()).sum()
+        self.ticks.iter().map(|tick| tick.dispatches(self.passes.shape).count()).sum()
     }
 
     fn reserve(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
@@ -215,7 +215,7 @@ impl GpuGrids {
         let mut dispatch = 0;
         for (index, tick) in (0..).zip(self.ticks.drain(..)) {
             let params = index * size_of::<TickParams>() as u32;
-            for Work { kind, groups, .. } in tick.dispatches() {
+            for Work { kind, groups, .. } in tick.dispatches(self.passes.shape) {
                 pass.set_pipeline(self.passes.of(kind));
                 pass.set_bind_group(0, state_group, &[dispatch * pass::DISPATCH_STRIDE, params]);
                 pass.dispatch_workgroups(groups, 1, 1);

@@ -1,7 +1,7 @@
 //! Turns a tick of all grids into what the passes read: parameters, tiles, sources.
 
 use open_water_shaders::grid::{
-    CLEARED, GridCell, GridParams, GridSource, GridTile, MEDIUM_THREADS, SHIFTED, STOOD, TickParams,
+    CLEARED, GridCell, GridParams, GridSource, GridTile, MEDIUM_THREADS, SHIFTED, STOOD, StepShape, TickParams,
 };
 
 use super::grid::Grid;
@@ -61,7 +61,7 @@ pub(super) enum Kind {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Work {
     pub(super) kind: Kind,
-    /// First tile or cell of the list, how many cells, sub-step.
+    /// First tile or cell of the list, how many of what a sub-step or the medium takes, sub-step.
     pub(super) first: u32,
     pub(super) count: u32,
     pub(super) substep: u32,
@@ -70,7 +70,7 @@ pub(super) struct Work {
 
 impl Tick {
     /// The tick's dispatches in order.
-    pub(super) fn dispatches(&self) -> impl Iterator<Item = Work> {
+    pub(super) fn dispatches(&self, shape: StepShape) -> impl Iterator<Item = Work> {
         let [first_cell, count] = self.cells;
         let groups = count.div_ceil(MEDIUM_THREADS);
         let medium = Work { kind: Kind::Medium, first: first_cell, count, substep: 0, groups };
@@ -86,7 +86,8 @@ impl Tick {
             let works: [Work; 4] = std::array::from_fn(|k| {
                 let first = start;
                 start += self.tiles[k];
-                Work { kind: Kind::Step { tiles: KINDS[k], last }, first, count: 0, substep, groups: tiles[k] }
+                let (count, groups) = (tiles[k], tiles[k].div_ceil(shape.tiles()));
+                Work { kind: Kind::Step { tiles: KINDS[k], last }, first, count, substep, groups }
             });
             works
         });

@@ -2,7 +2,7 @@
 
 use super::MAX_GRIDS;
 use super::pack::{Kind, TileKind};
-use open_water_shaders::grid::{self as shader, GridDispatch, GridDraw, TickParams};
+use open_water_shaders::grid::{self as shader, GridDispatch, GridDraw, StepShape, TickParams};
 use open_water_shaders::pipeline::{Slot, compute_pipeline, group_layout};
 
 /// Bytes between the dispatches' uniforms: WebGPU's alignment of dynamic offsets.
@@ -21,6 +21,8 @@ pub(super) struct Passes {
     step: [[[wgpu::ComputePipeline; 2]; 2]; 2],
     /// Without and with grids that have walls.
     pub(super) draw: [wgpu::ComputePipeline; 2],
+    /// How the steps' threads share the tiles.
+    pub(super) shape: StepShape,
 }
 
 impl Passes {
@@ -39,8 +41,14 @@ impl Passes {
         const BOTH: [f64; 2] = [0.0, 1.0];
         let prepare =
             |moved, medium| pipeline(&shader::PREPARE, &state_layout, &[("MOVED", moved), ("MEDIUM", medium)]);
+        let shape = match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => StepShape::SOFTWARE,
+            _ => StepShape::GPU,
+        };
+        let [rows, threads] = [shape.rows, shape.threads].map(f64::from);
         let step = |layer, last, mixed| {
-            pipeline(&shader::STEP, &state_layout, &[("LAYER", layer), ("LAST", last), ("MIXED", mixed)])
+            let kind = [("LAYER", layer), ("LAST", last), ("MIXED", mixed), ("ROWS", rows), ("THREADS", threads)];
+            pipeline(&shader::STEP, &state_layout, &kind)
         };
         Self {
             medium: pipeline(&shader::MEDIUM, &state_layout, &[]),
@@ -49,6 +57,7 @@ impl Passes {
             draw: BOTH.map(|medium| pipeline(&shader::DRAW, &draw_layout, &[("MEDIUM", medium)])),
             state_layout,
             draw_layout,
+            shape,
         }
     }
 
