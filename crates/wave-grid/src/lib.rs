@@ -35,6 +35,7 @@ mod grid;
 mod ground;
 mod measure;
 mod medium;
+mod resample;
 mod settings;
 mod source;
 mod state;

@@ -105,6 +105,17 @@ impl Tiles {
         }
     }
 
+    /// Notes the foam of every tile.
+    pub(crate) fn note_foam(&mut self, foam: &[f32]) {
+        for tz in 0..self.count[1] {
+            for tx in 0..self.count[0] {
+                let (columns, rows) = (self.span(0, tx), self.span(1, tz));
+                let rows = rows.map(|j| &foam[j * self.cells[0]..][columns.clone()]);
+                self.tiles[tz * self.count[0] + tx].foam = rows.flatten().fold(0.0, |most, foam| most.max(*foam));
+            }
+        }
+    }
+
     /// Decides which tiles are stepped in this tick.
     pub(crate) fn schedule(&mut self) {
         let [nx, nz] = self.count;
