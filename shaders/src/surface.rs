@@ -48,8 +48,14 @@ pub struct SurfaceGrid {
     pub cells: [u32; 2],
     /// First element in the pool.
     pub base: u32,
-    /// Padding.
-    pub pad: u32,
+    /// Factor on its heights and foam, 0 to 1: grids come and go softly.
+    pub gain: f32,
+    /// Of a tiled grid: local place around which it is seen, metres.
+    pub middle: [f32; 2],
+    /// Of a tiled grid: distance from there at which it has faded to nothing, metres; the fade begins at half of it.
+    pub reach: f32,
+    /// 1 for a grid that repeats with its window less the outermost ring of cells, 0 for one that ends with it.
+    pub tiled: u32,
 }
 
 /// The land as the composite surface sees it: where its rasters lie, and the level of the water.
@@ -102,7 +108,7 @@ impl Default for SurfaceTable {
 /// Layouts shared with WGSL.
 pub const PARAMS: &[crate::ParamLayout] = &[
     param_layout!(SurfaceCascade { offset, tile, size }),
-    param_layout!(SurfaceGrid { corner, cell_size, cells, base }),
+    param_layout!(SurfaceGrid { corner, cell_size, cells, base, gain, middle, reach, tiled }),
     param_layout!(SurfaceTable {
         cascade_count,
         grid_count,

@@ -11,6 +11,7 @@ use wave_grid::Source;
 
 use crate::cpu::surface::{BodyWater, Composite};
 use crate::grids::Grids;
+use crate::handover::{Homes, Settler};
 use crate::store::{BodyId, BodyMotion, BodyStore, GridId, Wants};
 use crate::{OpenWaterError, Reports};
 
@@ -51,10 +52,8 @@ pub(crate) struct Entry {
     id: BodyId,
     body: Body,
     controls: Controls,
-    home: Option<GridId>,
-    /// Makes waves in its home grid: always in one that follows it; in another's only when it asks to, as it would feel
-    /// its own waves there.
-    disturbs: bool,
+    /// The grid that it makes waves in.
+    homes: Homes,
     /// Takes part in this tick.
     active: bool,
     wants: Wants,
@@ -62,6 +61,18 @@ pub(crate) struct Entry {
     wrench: Wrench,
     previous: Option<Pose>,
     displaced: Vec<Displacement>,
+}
+
+impl Entry {
+    /// The waves it makes take its energy away.
+    fn radiates(&self) -> bool {
+        self.body.desc().radiation == Radiation::Grid
+    }
+
+    fn settler(&self, state: BodyState) -> Settler {
+        let Self { id, body, .. } = self;
+        Settler { id: *id, state, reach: body.bounding_radius(), radiation: body.desc().radiation }
+    }
 }
 
 #[derive(Default)]
@@ -77,8 +88,7 @@ impl Bodies {
             id,
             body,
             controls: Controls::default(),
-            home: None,
-            disturbs: false,
+            homes: Homes::default(),
             active: false,
             wants: Wants::State,
             wrench: Wrench::default(),
@@ -103,6 +113,10 @@ impl Bodies {
 
     pub(crate) fn body(&self, id: BodyId) -> Result<&Body, OpenWaterError> {
         self.get(id).map(|entry| &entry.body).ok_or(OpenWaterError::UnknownBody(id))
+    }
+
+    pub(crate) fn home(&self, id: BodyId) -> Result<Option<GridId>, OpenWaterError> {
+        self.get(id).map(|entry| entry.homes.now()).ok_or(OpenWaterError::UnknownBody(id))
     }
 
     pub(crate) fn set_controls(&mut self, id: BodyId, controls: Controls) -> Result<(), OpenWaterError> {
@@ -167,17 +181,15 @@ impl Bodies {
         self.list.par_chunks_mut(CHUNK).for_each(|entries| {
             for entry in entries.iter_mut().filter(|entry| entry.active) {
                 let before = entry.body.state();
-                entry.home = grids.home_of(entry.id, before.position);
-                let alone = entry.home.is_some_and(|home| grids.follows(home, entry.id));
-                entry.disturbs = alone || entry.body.desc().radiation == Radiation::Grid;
-                let water = BodyWater { water, home: entry.home, alone, disturbs: entry.disturbs };
+                let jumped = entry.previous.is_none();
+                entry.homes.settle(grids, entry.settler(before), dt, jumped);
+                let water = BodyWater { water, body: entry.id, homes: &entry.homes, by_grid: entry.radiates() };
                 match entry.wants {
                     Wants::State => entry.body.step(dt, &water, &entry.controls),
                     Wants::Wrench => entry.wrench = entry.body.step_wrench(dt, &water, &entry.controls),
                 }
                 entry.displaced.clear();
                 entry.body.displacements(&mut entry.displaced);
-                let jumped = entry.previous.is_none();
                 entry.previous = Some(if jumped { Pose::of(&entry.body) } else { Pose::at(&entry.body, &before) });
             }
         });
@@ -185,15 +197,17 @@ impl Bodies {
 
     /// Hands what the bodies displaced to their home grids, in a fixed order.
     pub(crate) fn disturb(&self, grids: &mut Grids) {
-        for entry in self.list.iter().filter(|entry| entry.active && entry.disturbs) {
-            let Some(grid) = entry.home.and_then(|home| grids.get_mut(home)) else { continue };
-            for d in &entry.displaced {
-                let center = Vec2::new(d.center.x, d.center.y);
-                if d.volume != 0.0 {
-                    grid.add(Source::Displacement { center, radius: d.radius, volume: d.volume });
-                }
-                if d.foam > 0.0 {
-                    grid.add(Source::Turbulence { center, radius: d.radius, foam: d.foam });
+        for entry in self.list.iter().filter(|entry| entry.active) {
+            let Some(home) = entry.homes.now() else { continue };
+            for grid in grids.iter_mut().filter(|grid| grid.id == home || grid.into == Some(home)) {
+                for d in &entry.displaced {
+                    let center = Vec2::new(d.center.x, d.center.y);
+                    if d.volume != 0.0 {
+                        grid.add(Source::Displacement { center, radius: d.radius, volume: d.volume });
+                    }
+                    if d.foam > 0.0 {
+                        grid.add(Source::Turbulence { center, radius: d.radius, foam: d.foam });
+                    }
                 }
             }
         }

@@ -120,11 +120,10 @@ impl OpenWater {
     /// # Errors
     /// There is no such grid, or it does not follow a [`Follow::Point`].
     pub fn set_follow_point(&mut self, id: GridId, place: DVec2) -> Result<(), OpenWaterError> {
-        let grid = self.grids.get_mut(id).ok_or(OpenWaterError::UnknownGrid(id))?;
-        if grid.desc.follow != Follow::Point {
+        if self.grids.present(id)?.desc.follow != Follow::Point {
             return Err(OpenWaterError::NotAPoint(id));
         }
-        if place.is_finite() {
+        if let Some(grid) = self.grids.get_mut(id).filter(|_| place.is_finite()) {
             grid.point = Some(place);
         }
         Ok(())

@@ -11,10 +11,13 @@ use wave_grid::{GridSample, Medium, Source, WaveGrid, Window};
 
 use crate::follow::Look;
 use crate::land::Feeding;
-use crate::{Follow, GridDesc, GridHome, GridId, OpenWaterError};
+use crate::{BodyId, Follow, GridDesc, GridHome, GridId, OpenWaterError};
 
 /// Most grids that a water may hold: all of them are drawn.
 pub const MAX_GRIDS: usize = open_water_shaders::surface::MAX_GRIDS;
+
+/// Seconds in which a grid that was removed fades.
+const FADE: f32 = 1.0;
 
 pub(crate) struct Grid {
     pub(crate) id: GridId,
@@ -22,6 +25,12 @@ pub(crate) struct Grid {
     pub(crate) sim: Sim,
     /// Place in the pool of drawn heights, elements.
     pub(crate) base: u32,
+    /// Factor on its heights, 0 to 1: grids come and go softly.
+    pub(crate) gain: f32,
+    /// It was removed, and is gone once it has faded.
+    pub(crate) leaving: bool,
+    /// The grid that it fades into meanwhile: both hold the same waves.
+    pub(crate) into: Option<GridId>,
     /// The place it follows, with `Follow::Point`.
     pub(crate) point: Option<DVec2>,
     /// How the ambient sea comes in.
@@ -36,12 +45,19 @@ pub(crate) enum Sim {
 }
 
 impl Grid {
-    /// Adds nothing where the window is not.
+    /// The waves as drawn: calm where the window is not.
     pub(crate) fn sample(&self, points: &[Vec2], out: &mut [GridSample]) {
         match &self.sim {
             Sim::Cpu(grid) => grid.sample(points, out),
             #[cfg(feature = "gpu")]
             Sim::Gpu(grid) => grid.sample(points, out),
+        }
+        if self.gain < 1.0 {
+            for sample in out {
+                sample.height *= self.gain;
+                sample.slope *= self.gain;
+                sample.vertical_velocity *= self.gain;
+            }
         }
     }
 
@@ -111,6 +127,11 @@ impl Grid {
         u64::from(self.cell_count()) * size_of::<[f32; 2]>() as u64
     }
 
+    /// Whether it can fade when it is removed: what has waves and is all its own.
+    pub(crate) fn fades(&self) -> bool {
+        matches!(self.sim, Sim::Cpu(_)) && self.is_awake() && !self.desc.feed.any()
+    }
+
     /// Whether it has waves.
     pub(crate) fn is_awake(&self) -> bool {
         match &self.sim {
@@ -131,12 +152,29 @@ impl Grid {
         DVec2::from(inside).max(DVec2::ONE) * Vec2::from(self.desc.cell_size).as_dvec2()
     }
 
-    /// Whether a body at this place would disturb the grid inside its border layer.
-    fn covers(&self, place: Vec2) -> bool {
+    /// Whether a body that reaches so far (metres) around this place disturbs the grid inside its border layer, and
+    /// `margin` cells from there. One that is too large for the grid need only be in its middle.
+    pub(crate) fn covers(&self, place: Vec2, reach: f32, margin: f64) -> bool {
         let window = self.window();
         let at = window.cells_from_corner(place, DVec2::ZERO);
-        let rim = self.rim();
-        (0..2).all(|k| at[k] > rim && at[k] < f64::from(window.cells[k]) - rim)
+        (0..2).all(|k| {
+            let cells = f64::from(window.cells[k]);
+            let most = 0.5 * cells - self.rim() - 2.0 - margin;
+            let rim = self.rim() + margin + f64::from(reach / window.cell_size[k]).min(most).max(0.0);
+            at[k] > rim && at[k] < cells - rim
+        })
+    }
+
+    /// Whether it follows the body.
+    pub(crate) fn follows(&self, body: BodyId) -> bool {
+        self.desc.follow == Follow::Body(body)
+    }
+
+    /// Order of the grids that a body could disturb, the best first: one that stays, that follows it, that is on the CPU,
+    /// the finest.
+    pub(crate) fn rank(&self, body: BodyId) -> (bool, bool, bool, f32) {
+        let [x, z] = self.desc.cell_size;
+        (self.leaving, !self.follows(body), self.desc.home == GridHome::Gpu, x.max(z))
     }
 }
 
@@ -156,8 +194,14 @@ impl Grids {
         self.list.iter_mut()
     }
 
+    /// One that was removed is found until it has faded.
     pub(crate) fn get(&self, id: GridId) -> Result<&Grid, OpenWaterError> {
         self.list.iter().find(|grid| grid.id == id).ok_or(OpenWaterError::UnknownGrid(id))
+    }
+
+    /// One that was not removed.
+    pub(crate) fn present(&self, id: GridId) -> Result<&Grid, OpenWaterError> {
+        self.get(id).ok().filter(|grid| !grid.leaving).ok_or(OpenWaterError::UnknownGrid(id))
     }
 
     pub(crate) fn get_mut(&mut self, id: GridId) -> Option<&mut Grid> {
@@ -170,17 +214,49 @@ impl Grids {
             return Err(OpenWaterError::InvalidValue { field: "grids", value, bound: "at most 32" });
         }
         let id = self.ids.insert(());
-        self.list.push(Grid { id, desc, sim, base: 0, point: None, feeding: None });
+        self.list.push(Grid {
+            id,
+            desc,
+            sim,
+            base: 0,
+            gain: 1.0,
+            leaving: false,
+            into: None,
+            point: None,
+            feeding: None,
+        });
         self.place();
         Ok(id)
     }
 
-    pub(crate) fn remove(&mut self, id: GridId) -> Result<Grid, OpenWaterError> {
+    /// Takes a grid out at once.
+    pub(crate) fn take(&mut self, id: GridId) -> Result<Grid, OpenWaterError> {
         self.ids.remove(id).ok_or(OpenWaterError::UnknownGrid(id))?;
         let at = self.list.iter().position(|grid| grid.id == id).ok_or(OpenWaterError::UnknownGrid(id))?;
         let grid = self.list.remove(at);
         self.place();
         Ok(grid)
+    }
+
+    /// Lets the grids that were removed fade by `dt` seconds. Returns those that have.
+    pub(crate) fn fade(&mut self, dt: f32) -> Vec<GridId> {
+        let mut gone = Vec::new();
+        for at in 0..self.list.len() {
+            let grid = &mut self.list[at];
+            if !grid.leaving {
+                continue;
+            }
+            // Never again as much as the grid it fades into has taken over.
+            grid.gain = (grid.gain - dt / FADE).max(0.0);
+            let (id, gain, into) = (grid.id, grid.gain, grid.into);
+            if let Some(next) = into.and_then(|into| self.get_mut(into)).filter(|next| !next.leaving) {
+                next.gain = 1.0 - gain;
+            }
+            if gain == 0.0 {
+                gone.push(id);
+            }
+        }
+        gone
     }
 
     /// Gives every grid its place in the pool.
@@ -198,26 +274,8 @@ impl Grids {
         self.list.iter().map(Grid::cell_count).sum()
     }
 
-    /// The grid that a body disturbs: the one that follows it, else the finest that covers it; on the CPU if it can be.
-    pub(crate) fn home_of(&self, body: crate::BodyId, place: Vec3) -> Option<GridId> {
-        let place = Vec2::new(place.x, place.z);
-        let covering = self.list.iter().filter(|grid| grid.covers(place));
-        let rank = |grid: &Grid| {
-            let follows = grid.desc.follow == Follow::Body(body);
-            (!follows, grid.desc.home == GridHome::Gpu, grid.desc.cell_size[0].max(grid.desc.cell_size[1]))
-        };
-        let before =
-            |a: &(bool, bool, f32), b: &(bool, bool, f32)| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
-        covering.map(|grid| (rank(grid), grid.id)).min_by(|a, b| before(&a.0, &b.0)).map(|(_, id)| id)
-    }
-
-    /// Whether a grid follows a body.
-    pub(crate) fn follows(&self, id: GridId, body: crate::BodyId) -> bool {
-        self.get(id).is_ok_and(|grid| grid.desc.follow == Follow::Body(body))
-    }
-
     /// Moves the windows after what they follow.
-    pub(crate) fn center(&mut self, look: Option<&Look>, level: f32, place_of: impl Fn(crate::BodyId) -> Option<Vec3>) {
+    pub(crate) fn center(&mut self, look: Option<&Look>, level: f32, place_of: impl Fn(BodyId) -> Option<Vec3>) {
         for grid in &mut self.list {
             if let Some(target) = grid.target(look, level, &place_of) {
                 grid.center_on(target);

@@ -39,6 +39,7 @@ mod follow;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod grids;
+mod handover;
 mod land;
 mod moorings;
 mod plan;

@@ -193,12 +193,23 @@ impl OpenWater {
         Ok(grid)
     }
 
-    /// Removes a grid and its waves.
+    /// Removes a grid. The waves of one that is stepped on the CPU fade over a second, those of others end.
     ///
     /// # Errors
     /// There is no such grid.
     pub fn remove_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
-        let removed = self.grids.remove(id)?;
+        if self.grids.present(id)?.fades()
+            && let Some(grid) = self.grids.get_mut(id)
+        {
+            grid.leaving = true;
+            return Ok(());
+        }
+        self.drop_grid(id)
+    }
+
+    /// Removes a grid and its waves at once.
+    pub(crate) fn drop_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
+        let removed = self.grids.take(id)?;
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
             if let Sim::Gpu(grid) = removed.sim {
@@ -217,7 +228,7 @@ impl OpenWater {
     /// # Errors
     /// There is no such grid.
     pub fn grid(&self, id: GridId) -> Result<Option<&WaveGrid>, OpenWaterError> {
-        Ok(match &self.grids.get(id)?.sim {
+        Ok(match &self.grids.present(id)?.sim {
             Sim::Cpu(grid) => Some(&**grid),
             #[cfg(feature = "gpu")]
             Sim::Gpu(_) => None,
@@ -255,6 +266,9 @@ impl OpenWater {
         let start = self.tick as f64 * f64::from(tick.dt);
         self.grids.center(self.looking.as_ref(), self.shore.level, |id| bodies.place_of(id));
         self.grids.tick(self.ocean.as_ref(), start);
+        for id in self.grids.fade(tick.dt) {
+            self.drop_grid(id)?;
+        }
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
             gpu.remote.tick(&mut self.grids);
@@ -297,7 +311,7 @@ impl OpenWater {
 
     /// How many grids there are.
     pub fn grid_count(&self) -> usize {
-        self.grids.iter().len()
+        self.grids.iter().filter(|grid| !grid.leaving).count()
     }
 
     /// What went out of the ordinary since the start.

@@ -7,20 +7,16 @@ fn grid_cell(index: u32) -> f32 {
 // Height of a grid at a point between its four nearest cells; zero outside its window.
 fn grid_height(index: u32, point: vec2<f32>) -> f32 {
     let grid = surface_table.grids[index];
-    let x = (point - grid.corner) / grid.cell_size - 0.5;
-    let base = floor(x);
-    if any(base < vec2<f32>(0.0)) || any(base > vec2<f32>(grid.cells) - 2.0) {
+    let place = grid_place(grid, point);
+    let base = floor(place.at);
+    if place.share == 0.0 || !grid_holds(grid, base, 0.0) {
         return 0.0;
     }
-    let t = x - base;
+    let t = place.at - base;
     let at = vec2<u32>(base);
-    let i = grid.base + at.y * grid.cells.x + at.x;
-    let j = i + grid.cells.x;
-    return mix(
-        mix(surface_grids[i].x, surface_grids[i + 1u].x, t.x),
-        mix(surface_grids[j].x, surface_grids[j + 1u].x, t.x),
-        t.y,
-    );
+    let low = mix(grid_texel(grid, at).x, grid_texel(grid, at + vec2<u32>(1u, 0u)).x, t.x);
+    let high = mix(grid_texel(grid, at + vec2<u32>(0u, 1u)).x, grid_texel(grid, at + 1u).x, t.x);
+    return place.share * mix(low, high, t.y);
 }
 
 // Height of all grids for a vertex: a tent as wide as the footprint takes out what the mesh could not carry.

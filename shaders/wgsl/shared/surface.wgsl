@@ -1,9 +1,14 @@
+// A tiled grid stands for the whole plane: it repeats with its window less the outermost ring of cells, and fades with
+// the distance from `middle`, to nothing at `reach`.
 struct SurfaceGrid {
     corner: vec2<f32>,
     cell_size: vec2<f32>,
     cells: vec2<u32>,
     base: u32,
-    pad: u32,
+    gain: f32,
+    middle: vec2<f32>,
+    reach: f32,
+    tiled: u32,
 }
 
 // The rasters of the land: local place of texel (0, 0), texel size, whether there are any, texels along x and z; and the
@@ -28,16 +33,44 @@ struct SurfaceTable {
     land: SurfaceLand,
 }
 
+// Where a grid is read for a world point: cells from the first cell's centre, and how much of it counts there.
+struct GridPlace {
+    at: vec2<f32>,
+    share: f32,
+}
+
+fn grid_place(grid: SurfaceGrid, point: vec2<f32>) -> GridPlace {
+    let x = (point - grid.corner) / grid.cell_size - 0.5;
+    if grid.tiled == 0u {
+        return GridPlace(x, grid.gain);
+    }
+    let period = vec2<f32>(grid.cells) - 2.0;
+    let fade = 1.0 - smoothstep(0.5 * grid.reach, grid.reach, distance(point, grid.middle));
+    return GridPlace(x - floor((x - 1.0) / period) * period, grid.gain * fade);
+}
+
+// Whether `margin` cells around the four that hold a place are there to be read.
+fn grid_holds(grid: SurfaceGrid, base: vec2<f32>, margin: f32) -> bool {
+    return grid.tiled != 0u || (all(base >= vec2<f32>(margin)) && all(base <= vec2<f32>(grid.cells) - 2.0 - margin));
+}
+
+// (height, foam) of a cell, both faded; beyond the last a tiled grid begins again.
+fn grid_texel(grid: SurfaceGrid, cell: vec2<u32>) -> vec2<f32> {
+    let over = vec2<u32>(cell >= grid.cells);
+    let at = cell - over * (grid.cells - 2u);
+    return surface_grids[grid.base + at.y * grid.cells.x + at.x];
+}
+
 // Height, slope and foam of one grid at a world point: (height, dh/dx, dh/dz, foam). Zero outside its window.
 fn grid_at(index: u32, point: vec2<f32>) -> vec4<f32> {
     let grid = surface_table.grids[index];
-    let x = (point - grid.corner) / grid.cell_size - 0.5;
-    let base = floor(x);
+    let place = grid_place(grid, point);
+    let base = floor(place.at);
     // Two cells of margin: the fade has brought the height to zero there.
-    if any(base < vec2<f32>(1.0)) || any(base > vec2<f32>(grid.cells) - 3.0) {
+    if place.share == 0.0 || !grid_holds(grid, base, 1.0) {
         return vec4<f32>(0.0);
     }
-    let t = x - base;
+    let t = place.at - base;
     let wx = cubic_weights(t.x);
     let wz = cubic_weights(t.y);
     let dx = cubic_slopes(t.x) / grid.cell_size.x;
@@ -45,13 +78,12 @@ fn grid_at(index: u32, point: vec2<f32>) -> vec4<f32> {
     let first = vec2<u32>(base) - 1u;
     var sum = vec4<f32>(0.0);
     for (var j = 0u; j < 4u; j++) {
-        let row = grid.base + (first.y + j) * grid.cells.x + first.x;
         for (var i = 0u; i < 4u; i++) {
-            let v = surface_grids[row + i];
+            let v = grid_texel(grid, first + vec2<u32>(i, j));
             sum += vec4<f32>(wx[i] * wz[j] * v.x, dx[i] * wz[j] * v.x, wx[i] * dz[j] * v.x, wx[i] * wz[j] * v.y);
         }
     }
-    return sum;
+    return sum * place.share;
 }
 
 // The same of all grids.

@@ -9,8 +9,9 @@ use ocean_spectrum::{Ocean, OceanSample};
 use wave_grid::GridSample;
 
 use crate::grids::{Grid, Grids};
+use crate::handover::Homes;
 use crate::land::Shore;
-use crate::store::GridId;
+use crate::store::BodyId;
 
 /// Points answered at a time, on the stack.
 const BATCH: usize = 32;
@@ -65,7 +66,7 @@ impl Composite<'_> {
             self.ambient(points, &mut ambient[..n]);
             let mut sum = [GridSample::default(); BATCH];
             for grid in self.grids.iter() {
-                add(grid, points, &mut sum[..n]);
+                add(grid, points, 1.0, &mut sum[..n]);
             }
             for (((out, a), g), point) in out.iter_mut().zip(&ambient).zip(&sum[..n]).zip(points) {
                 *out = WaterSample {
@@ -80,14 +81,15 @@ impl Composite<'_> {
     }
 }
 
-fn add(grid: &Grid, points: &[Vec2], sum: &mut [GridSample]) {
+/// Adds a share of a grid's waves.
+fn add(grid: &Grid, points: &[Vec2], share: f32, sum: &mut [GridSample]) {
     let mut one = [GridSample::default(); BATCH];
     let one = &mut one[..points.len()];
     grid.sample(points, one);
     for (sum, one) in sum.iter_mut().zip(one) {
-        sum.height += one.height;
-        sum.slope += one.slope;
-        sum.vertical_velocity += one.vertical_velocity;
+        sum.height += share * one.height;
+        sum.slope += share * one.slope;
+        sum.vertical_velocity += share * one.vertical_velocity;
     }
 }
 
@@ -103,21 +105,25 @@ fn tilt(normal: Vec3, slope: Vec2) -> Vec3 {
 /// The water as one body sees it.
 pub(crate) struct BodyWater<'a> {
     pub(crate) water: Composite<'a>,
-    /// The grid that the body disturbs. Its waves go into `own` and nowhere else: what the body displaces is measured
-    /// against everything else, and would grow if any of its own waves were in there.
-    pub(crate) home: Option<GridId>,
-    /// The home grid follows this body: its waves count as the body's own.
-    pub(crate) alone: bool,
-    /// The body makes waves in its home grid.
-    pub(crate) disturbs: bool,
+    pub(crate) body: BodyId,
+    /// The grid that the body disturbs, and what else holds its waves. They go into `own` and nowhere else: what the body
+    /// displaces is measured against everything else, and would grow if any of its own waves were in there.
+    pub(crate) homes: &'a Homes,
+    /// The body feels its own waves.
+    pub(crate) by_grid: bool,
 }
 
 impl BodyWater<'_> {
     /// A body that makes no waves has none of its own to tell apart.
     fn others_and_own(&self, points: &[Vec2], others: &mut [GridSample], own: &mut [GridSample]) {
         for grid in self.water.grids.iter() {
-            let sum = if self.disturbs && Some(grid.id) == self.home { &mut *own } else { &mut *others };
-            add(grid, points, sum);
+            let share = self.homes.share(grid);
+            if share == 0.0 || share == 1.0 {
+                add(grid, points, 1.0, if share == 1.0 { &mut *own } else { &mut *others });
+            } else {
+                add(grid, points, share, own);
+                add(grid, points, 1.0 - share, others);
+            }
         }
     }
 }
@@ -154,10 +160,13 @@ impl WaterSurface for BodyWater<'_> {
     }
 
     fn home(&self) -> Home {
-        match self.home {
-            Some(_) if self.disturbs && self.alone => Home::Own,
-            Some(_) if self.disturbs => Home::Shared,
-            _ => Home::None,
+        let grid = self.homes.now().and_then(|home| self.water.grids.get(home).ok());
+        match grid {
+            Some(grid) if grid.follows(self.body) => Home::Own,
+            Some(_) => Home::Shared,
+            // The waves it left behind are felt on as they were.
+            None if self.by_grid && self.homes.any() => Home::Shared,
+            None => Home::None,
         }
     }
 

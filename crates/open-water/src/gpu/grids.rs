@@ -162,7 +162,7 @@ impl OpenWater {
     /// # Errors
     /// There is no such grid.
     pub fn grid_age(&self, id: crate::GridId) -> Result<Option<u64>, OpenWaterError> {
-        Ok(match &self.grids.get(id)?.sim {
+        Ok(match &self.grids.present(id)?.sim {
             Sim::Cpu(_) => Some(0),
             Sim::Gpu(remote) => remote.mirror.tick().map(|tick| self.tick.saturating_sub(tick)),
         })

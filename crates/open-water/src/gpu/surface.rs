@@ -139,7 +139,8 @@ impl SurfaceBinding {
                 cell_size: window.cell_size,
                 base: grid.base,
                 cells: window.cells,
-                pad: 0,
+                gain: grid.gain,
+                ..SurfaceGrid::default()
             };
             table.grid_count += 1;
         }
