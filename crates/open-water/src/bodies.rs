@@ -140,6 +140,11 @@ impl Bodies {
         self.list.len()
     }
 
+    /// Those that take part, in a fixed order.
+    pub(crate) fn active(&self) -> impl Iterator<Item = (BodyId, &Body)> {
+        self.list.iter().filter(|entry| entry.active).map(|entry| (entry.id, &entry.body))
+    }
+
     pub(crate) fn place_of(&self, id: BodyId) -> Option<Vec3> {
         self.get(id).filter(|entry| entry.active).map(|entry| entry.body.state().position)
     }

@@ -69,7 +69,7 @@ impl Grid {
         }
     }
 
-    fn center_on(&mut self, target: DVec2) {
+    pub(crate) fn center_on(&mut self, target: DVec2) {
         match &mut self.sim {
             Sim::Cpu(grid) => grid.center_on(target),
             #[cfg(feature = "gpu")]

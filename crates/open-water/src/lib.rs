@@ -38,6 +38,7 @@ mod error;
 mod follow;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod grid_access;
 mod grids;
 mod handover;
 mod land;
@@ -49,6 +50,7 @@ pub mod rapier;
 mod sea;
 mod shore;
 mod store;
+mod wakes;
 mod water;
 
 pub use bodies::Pose;
@@ -62,6 +64,7 @@ pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shel
 pub use moorings::Mooring;
 pub use plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
 pub use store::{BodyId, BodyMotion, BodyStates, BodyStore, GridId, MooringId, Wants};
+pub use wakes::{Wake, WakesDesc};
 pub use water::{OpenWater, Reports};
 
 pub use floating_body::{

@@ -3,18 +3,18 @@
 use floating_body::{Body, BodyDesc, Controls};
 use glam::Vec2;
 use ocean_spectrum::{Ocean, Outputs};
-use wave_grid::WaveGrid;
 
 use crate::OpenWaterError;
 use crate::bodies::{Bodies, Pose};
 use crate::clock::{Clock, Tick, Ticks};
 use crate::cpu::surface::{Composite, WaterSample};
-use crate::desc::{GridDesc, GridHome, OpenWaterDesc};
-use crate::follow::{Follow, Look};
-use crate::grids::{Grids, Sim};
+use crate::desc::OpenWaterDesc;
+use crate::follow::Look;
+use crate::grids::Grids;
 use crate::land::Shore;
 use crate::moorings::{Mooring, Moorings};
-use crate::store::{BodyId, BodyStore, GridId, MooringId};
+use crate::store::{BodyId, BodyStore, MooringId};
+use crate::wakes::Wakes;
 
 /// What went out of the ordinary since the start; nothing of it is an error.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -42,6 +42,7 @@ pub struct OpenWater {
     pub(crate) shore: Shore,
     /// How the game said last that it looks at the water.
     pub(crate) looking: Option<Look>,
+    pub(crate) wakes: Wakes,
     #[cfg(feature = "gpu")]
     pub(crate) gpu: Option<crate::gpu::Gpu>,
 }
@@ -65,6 +66,7 @@ impl OpenWater {
             reports: Reports::default(),
             shore: Shore::default(),
             looking: None,
+            wakes: Wakes::default(),
             desc,
             #[cfg(feature = "gpu")]
             gpu: None,
@@ -151,90 +153,6 @@ impl OpenWater {
         self.bodies.drawn(id, self.clock.alpha())
     }
 
-    /// Adds an interactive grid.
-    ///
-    /// # Errors
-    /// A value of the description is out of its range or its scheme unstable; too many grids; a GPU home without a GPU.
-    pub fn add_grid(&mut self, desc: GridDesc) -> Result<GridId, OpenWaterError> {
-        desc.check_home()?;
-        let grid = desc.wave_grid(self.clock.dt());
-        let sim = match desc.home {
-            GridHome::Cpu => Sim::Cpu(Box::new(self.cpu_grid(&desc, grid)?)),
-            #[cfg(feature = "gpu")]
-            GridHome::Gpu => {
-                let gpu = self.gpu.as_mut().ok_or(OpenWaterError::NoGpu)?;
-                Sim::Gpu(Box::new(gpu.remote.add(grid)?))
-            }
-            #[cfg(not(feature = "gpu"))]
-            GridHome::Gpu => return Err(OpenWaterError::NoGpu),
-        };
-        let fed = desc.feed.any();
-        let id = self.grids.insert(desc, sim)?;
-        #[cfg(feature = "gpu")]
-        if let Some(gpu) = &mut self.gpu {
-            gpu.resize_pool(self.grids.pool_cells());
-        }
-        if fed {
-            self.rebuild_shore(self.shore.terrain.clone())?;
-        }
-        Ok(id)
-    }
-
-    fn cpu_grid(&self, desc: &GridDesc, grid: wave_grid::GridDesc) -> Result<WaveGrid, OpenWaterError> {
-        let mut grid = WaveGrid::new(grid)?;
-        if let Follow::Fixed(place) = desc.follow {
-            grid.center_on(place);
-        }
-        if desc.feed.any() {
-            grid.set_feed(desc.feed);
-            self.check_feed(desc, &grid)?;
-        }
-        grid.set_medium(self.shore.medium());
-        Ok(grid)
-    }
-
-    /// Removes a grid. The waves of one that is stepped on the CPU fade over a second, those of others end.
-    ///
-    /// # Errors
-    /// There is no such grid.
-    pub fn remove_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
-        if self.grids.present(id)?.fades()
-            && let Some(grid) = self.grids.get_mut(id)
-        {
-            grid.leaving = true;
-            return Ok(());
-        }
-        self.drop_grid(id)
-    }
-
-    /// Removes a grid and its waves at once.
-    pub(crate) fn drop_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
-        let removed = self.grids.take(id)?;
-        #[cfg(feature = "gpu")]
-        if let Some(gpu) = &mut self.gpu {
-            if let Sim::Gpu(grid) = removed.sim {
-                gpu.remote.remove(grid.id);
-            }
-            gpu.resize_pool(self.grids.pool_cells());
-        }
-        if removed.desc.feed.any() {
-            self.rebuild_shore(self.shore.terrain.clone())?;
-        }
-        Ok(())
-    }
-
-    /// The state of a CPU-homed grid after the last tick; `None` for a GPU-homed one.
-    ///
-    /// # Errors
-    /// There is no such grid.
-    pub fn grid(&self, id: GridId) -> Result<Option<&WaveGrid>, OpenWaterError> {
-        Ok(match &self.grids.present(id)?.sim {
-            Sim::Cpu(grid) => Some(&**grid),
-            #[cfg(feature = "gpu")]
-            Sim::Gpu(_) => None,
-        })
-    }
-
     /// The ticks that are due `frame_dt` seconds after the last call; run each with [`Self::tick`]. More than
     /// `max_ticks_per_frame` are dropped and reported; a time that is not positive counts as zero.
     pub fn advance(&mut self, frame_dt: f32) -> Ticks {
@@ -253,7 +171,9 @@ impl OpenWater {
         if tick.index != expected {
             return Err(OpenWaterError::TickOutOfOrder { expected, found: tick.index });
         }
-        if self.bodies.read(store, tick.dt, &mut self.reports) {
+        let any = self.bodies.read(store, tick.dt, &mut self.reports);
+        self.keep_wakes(tick.dt);
+        if any {
             if let Some(ocean) = &mut self.ocean {
                 // On all threads; the bodies' tasks would wait for whichever asks first.
                 ocean.prepare(Outputs::ALL);
@@ -307,11 +227,6 @@ impl OpenWater {
     /// How many bodies there are.
     pub fn body_count(&self) -> usize {
         self.bodies.len()
-    }
-
-    /// How many grids there are.
-    pub fn grid_count(&self) -> usize {
-        self.grids.iter().filter(|grid| !grid.leaving).count()
     }
 
     /// What went out of the ordinary since the start.

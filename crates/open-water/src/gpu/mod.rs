@@ -23,6 +23,8 @@ pub(crate) struct Gpu {
     surface: SurfaceBinding,
     pub(crate) remote: grids::RemoteGrids,
     shown: Shown,
+    /// Cells that the pool has room for, and that it never has less.
+    pool: [u32; 2],
     /// Time of the last looks, seconds: foam fades by the difference.
     looks_time: f64,
     /// Drawn heights of one grid, before they are uploaded.
@@ -45,14 +47,25 @@ impl Gpu {
             surface,
             remote: grids::RemoteGrids::new(device),
             shown: Shown::default(),
+            pool: [0; 2],
             looks_time: 0.0,
             scratch: Vec::new(),
         })
     }
 
+    /// The grids have other places in the pool; it grows, and shrinks when most of it is empty.
     pub(crate) fn resize_pool(&mut self, cells: u32) {
         self.shown.grids = None;
-        self.surface.resize_pool(&self.device, self.ocean.as_ref(), cells);
+        let [room, least] = &mut self.pool;
+        if cells > *room || cells.max(*least) < *room / 4 {
+            *room = cells.max(*least);
+            self.surface.resize_pool(&self.device, self.ocean.as_ref(), *room);
+        }
+    }
+
+    /// Keeps room for grids that come and go while the water runs.
+    pub(crate) fn reserve_pool(&mut self, cells: u32) {
+        self.pool[1] = cells;
     }
 
     /// Replaces the land that the composite surface reads.

@@ -1,0 +1,101 @@
+//! The grids of an [`OpenWater`]: how they are added, removed and read.
+
+use wave_grid::WaveGrid;
+
+use crate::OpenWaterError;
+use crate::desc::{GridDesc, GridHome};
+use crate::follow::Follow;
+use crate::grids::Sim;
+use crate::store::GridId;
+use crate::water::OpenWater;
+
+impl OpenWater {
+    /// Adds an interactive grid.
+    ///
+    /// # Errors
+    /// A value of the description is out of its range or its scheme unstable; too many grids; a GPU home without a GPU.
+    pub fn add_grid(&mut self, desc: GridDesc) -> Result<GridId, OpenWaterError> {
+        desc.check_home()?;
+        let grid = desc.wave_grid(self.clock.dt());
+        let sim = match desc.home {
+            GridHome::Cpu => Sim::Cpu(Box::new(self.cpu_grid(&desc, grid)?)),
+            #[cfg(feature = "gpu")]
+            GridHome::Gpu => {
+                let gpu = self.gpu.as_mut().ok_or(OpenWaterError::NoGpu)?;
+                Sim::Gpu(Box::new(gpu.remote.add(grid)?))
+            }
+            #[cfg(not(feature = "gpu"))]
+            GridHome::Gpu => return Err(OpenWaterError::NoGpu),
+        };
+        let fed = desc.feed.any();
+        let id = self.grids.insert(desc, sim)?;
+        #[cfg(feature = "gpu")]
+        if let Some(gpu) = &mut self.gpu {
+            gpu.resize_pool(self.grids.pool_cells());
+        }
+        if fed {
+            self.rebuild_shore(self.shore.terrain.clone())?;
+        }
+        Ok(id)
+    }
+
+    fn cpu_grid(&self, desc: &GridDesc, grid: wave_grid::GridDesc) -> Result<WaveGrid, OpenWaterError> {
+        let mut grid = WaveGrid::new(grid)?;
+        if let Follow::Fixed(place) = desc.follow {
+            grid.center_on(place);
+        }
+        if desc.feed.any() {
+            grid.set_feed(desc.feed);
+            self.check_feed(desc, &grid)?;
+        }
+        grid.set_medium(self.shore.medium());
+        Ok(grid)
+    }
+
+    /// Removes a grid. The waves of one that is stepped on the CPU fade over a second, those of others end.
+    ///
+    /// # Errors
+    /// There is no such grid.
+    pub fn remove_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
+        if self.grids.present(id)?.fades()
+            && let Some(grid) = self.grids.get_mut(id)
+        {
+            grid.leaving = true;
+            return Ok(());
+        }
+        self.drop_grid(id)
+    }
+
+    /// Removes a grid and its waves at once.
+    pub(crate) fn drop_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
+        let removed = self.grids.take(id)?;
+        #[cfg(feature = "gpu")]
+        if let Some(gpu) = &mut self.gpu {
+            if let Sim::Gpu(grid) = removed.sim {
+                gpu.remote.remove(grid.id);
+            }
+            gpu.resize_pool(self.grids.pool_cells());
+        }
+        if removed.desc.feed.any() {
+            self.rebuild_shore(self.shore.terrain.clone())?;
+        }
+        Ok(())
+    }
+
+    /// The state of a CPU-homed grid after the last tick; `None` for a GPU-homed one.
+    ///
+    /// # Errors
+    /// There is no such grid.
+    pub fn grid(&self, id: GridId) -> Result<Option<&WaveGrid>, OpenWaterError> {
+        Ok(match &self.grids.present(id)?.sim {
+            Sim::Cpu(grid) => Some(&**grid),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(_) => None,
+        })
+    }
+
+    /// How many grids there are.
+    pub fn grid_count(&self) -> usize {
+        self.grids.iter().filter(|grid| !grid.leaving).count()
+    }
+}
