@@ -149,7 +149,7 @@ fn a_body_at_an_edge_does_not_go_to_and_fro() {
         changes += usize::from(now != home);
         home = now;
     }
-    assert_eq!(changes, 3, "into the coarse one, the fine one, and back for good");
+    assert_eq!(changes, 2, "into the fine one, and out of it for good");
 }
 
 #[test]
