@@ -9,9 +9,8 @@ use crate::cpu::step::Setting;
 use crate::cpu::tiles::{Mode, Tiles};
 use crate::feed::{Feed, Incident};
 use crate::ground::Ground;
-use crate::source::{Footprint, HEIGHT_LIMIT};
 use crate::window::{Move, Place};
-use crate::{GridDesc, GridError, Source, Stepping, cpu, state::State};
+use crate::{GridDesc, GridError, Stepping, cpu, state::State};
 
 /// The waves of a grid at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -46,6 +45,8 @@ pub struct WaveGrid {
     pub(crate) captured: bool,
     pub(crate) skipping: bool,
     pub(crate) dropped: u64,
+    /// Scratch of sources.
+    pub(crate) weights: [Vec<f32>; 2],
 }
 
 impl WaveGrid {
@@ -78,6 +79,7 @@ impl WaveGrid {
             captured: true,
             skipping: true,
             dropped: 0,
+            weights: Default::default(),
             place,
             desc,
         };
@@ -147,37 +149,9 @@ impl WaveGrid {
         }
     }
 
-    /// Adds a disturbance to be felt from the next tick on. Returns whether it was: a source that is not finite, has a
-    /// negative radius, reaches into the border layer or out of the window, or has less than an eighth of its weight over
-    /// open water is dropped and counted. It is written into open water only, all of it. Heights are
-    /// kept within [`HEIGHT_LIMIT`]; below it the volume is written exactly to rounding.
-    pub fn add(&mut self, source: Source) -> bool {
-        let rim = self.profile.thickness + 1;
-        let footprint = Footprint::new(source, &self.place.window, self.origin, rim, self.cells());
-        let Some(footprint) = footprint else {
-            self.dropped += 1;
-            return false;
-        };
-        self.capture();
-        self.tiles.touch(footprint.range, footprint.height, footprint.foam);
-        let [range_x, range_z] = footprint.range;
-        let cells = self.ground.as_ref().and_then(|ground| ground.cells.as_ref());
-        for j in range_z[0]..range_z[1] {
-            for i in range_x[0]..range_x[1] {
-                let at = j * self.state.nx + i;
-                if cells.is_some_and(|cells| !cells.is_open(at)) {
-                    continue;
-                }
-                let weight = footprint.weight(i, j);
-                let rise = weight * footprint.height;
-                for z in [&mut self.state.z[at], &mut self.state.old[at]] {
-                    *z = (*z + rise).clamp(-HEIGHT_LIMIT, HEIGHT_LIMIT);
-                }
-                let foam = &mut self.state.foam[at];
-                *foam = (*foam + weight * footprint.foam).min(1.0);
-            }
-        }
-        true
+    /// Cells on each side that no source may touch.
+    pub(crate) fn source_rim(&self) -> usize {
+        self.profile.thickness + 1
     }
 
     pub(crate) fn capture(&mut self) {

@@ -234,10 +234,15 @@ impl Cells {
 
     /// div(a grad z) of a cell away from the outermost ring, in f64.
     pub(crate) fn divergence(&self, z: &[f32], at: usize) -> f64 {
+        self.divergence_of(|at| f64::from(z[at]), at)
+    }
+
+    /// The same of a field by the index of the cell.
+    pub(crate) fn divergence_of(&self, z: impl Fn(usize) -> f64, at: usize) -> f64 {
         let flux = |axis: usize, at: usize| {
             let (before, beside) = if axis == 0 { (1, self.nx) } else { (self.nx, 1) };
             let faces = &self.faces[axis];
-            let jump = |at: usize| f64::from(z[at]) - f64::from(z[at - before]);
+            let jump = |at: usize| z(at) - z(at - before);
             let side = |other: usize| f64::from(faces[at].min(faces[other])) * jump(other);
             let sides = side(at - beside) + side(at + beside);
             f64::from(self.own[axis][at]) * jump(at) + f64::from(self.weights[1]) * sides

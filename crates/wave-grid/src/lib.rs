@@ -27,6 +27,7 @@ mod access;
 mod border;
 mod cpu;
 mod desc;
+mod dispersion;
 mod error;
 mod feed;
 #[cfg(feature = "gpu")]
@@ -39,6 +40,7 @@ mod resample;
 mod settings;
 mod source;
 mod state;
+mod train;
 mod window;
 
 pub use cpu::tiles::{QUIET_FOAM, QUIET_HEIGHT};
@@ -47,5 +49,6 @@ pub use error::GridError;
 pub use feed::{Edges, FeedLine, Incident, Side};
 pub use grid::{GridSample, WaveGrid};
 pub use medium::{CellKind, Medium, MediumCell};
-pub use source::{HEIGHT_LIMIT, Source};
+pub use source::{HEIGHT_LIMIT, Rain, Source, WaveMaker};
+pub use train::WaveTrain;
 pub use window::Window;

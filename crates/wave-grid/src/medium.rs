@@ -30,6 +30,13 @@ pub struct MediumCell {
     pub kind: CellKind,
 }
 
+impl Default for MediumCell {
+    /// Open deep water.
+    fn default() -> Self {
+        Self { speed: f32::INFINITY, damping: 0.0, kind: CellKind::Open }
+    }
+}
+
 /// The medium of the whole world. Cells read it at their centres as they enter a window.
 pub trait Medium: Send + Sync {
     /// The medium at a world place (x, z), for a grid whose speed in deep water is `deep_speed`.

@@ -7,7 +7,7 @@ use crate::border::Profile;
 use crate::cpu::foam::FoamLaw;
 use crate::ground::Cells;
 use crate::medium::{CellLaw, SharedMedium};
-use crate::source::Footprint;
+use crate::source::footprint::Footprint;
 use crate::window::Place;
 use crate::{GridDesc, Stepping};
 

@@ -19,7 +19,7 @@ use open_water_shaders::grid::{self as shader, DRAW_THREADS, TickParams};
 
 use crate::cpu::foam::FoamLaw;
 use crate::medium::{Medium, SharedMedium};
-use crate::source::Footprint;
+use crate::source::footprint::{Footprint, Shape, Site};
 use crate::window::{Move, Place};
 use crate::{GridDesc, GridError, Source, Window};
 
@@ -49,6 +49,8 @@ pub struct GpuGrids {
     buffers: Buffers,
     packer: Packer,
     ticks: VecDeque<pack::Tick>,
+    /// Scratch of sources.
+    weights: [Vec<f32>; 2],
 }
 
 impl GpuGrids {
@@ -64,6 +66,7 @@ impl GpuGrids {
             buffers,
             packer: Packer::default(),
             ticks: VecDeque::new(),
+            weights: Default::default(),
         }
     }
 
@@ -167,16 +170,21 @@ impl GpuGrids {
         }
     }
 
-    /// As [`crate::WaveGrid::add`].
+    /// As [`crate::WaveGrid::add`]. [`Source::Box`] and [`Source::Pressure`] are not known here: dropped and counted.
     pub fn add(&mut self, id: GpuGridId, source: Source) -> bool {
         let origin = self.origin;
+        let [first, second] = &mut self.weights;
         let grid = &mut self.grids[id.0];
         let rim = grid.desc.pml_width as usize + 2;
-        let Some(footprint) = Footprint::new(source, &grid.place.window, origin, rim, grid.cells()) else {
+        let site = Site { window: &grid.place.window, origin, rim, cells: grid.cells() };
+        let parts = site.place(source, [first, second]);
+        let known = |part: &Footprint| matches!(part.shape, Shape::Disc { .. }) && part.head == 0.0;
+        let Some(parts) = parts.filter(|parts| parts.iter().flatten().all(known)) else {
             grid.dropped += 1;
             return false;
         };
-        grid.sources.push((footprint, grid.place.window.corner));
+        let corner = grid.place.window.corner;
+        grid.sources.extend(parts.into_iter().flatten().map(|part| (part, corner)));
         grid.awake = grid.rest_ticks();
         true
     }

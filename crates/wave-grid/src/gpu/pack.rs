@@ -7,7 +7,7 @@ use open_water_shaders::grid::{
 use super::grid::Grid;
 use crate::TILE;
 use crate::cpu::tiles::Class;
-use crate::source::Footprint;
+use crate::source::footprint::{Footprint, Shape};
 
 /// How tiles are stepped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -203,7 +203,8 @@ impl Packer {
     /// Lists the grid's sources by tile, each tile's in the order they were added.
     fn place_sources(&mut self, slot: u32, grid: &Grid) {
         let corner = grid.place.window.corner;
-        for (Footprint { center, outer, stretch, height, foam, range }, placed_at) in &grid.sources {
+        for (Footprint { center, shape, height, foam, range, .. }, placed_at) in &grid.sources {
+            let Shape::Disc { outer, stretch } = shape else { continue };
             let since: [i64; 2] = std::array::from_fn(|k| corner[k] - placed_at[k]);
             let source = GridSource {
                 center: std::array::from_fn(|k| center[k] - since[k] as f32),
