@@ -53,7 +53,7 @@ impl Medium for By {
     fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
         let within = (place / self.cell).clamp(DVec2::splat(0.5 - HALF), DVec2::splat(HALF - 0.5));
         let (share, kind) = (self.medium)(within);
-        MediumCell { speed: deep_speed * share, damping: 0.0, kind }
+        MediumCell { speed: deep_speed * share, damping: 0.0, kind, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {
@@ -113,7 +113,7 @@ impl Medium for Rough {
             _ => CellKind::Open,
         };
         let share = if block < 0.6 { random(x, z, 3).max(0.01) } else { 1.0 };
-        MediumCell { speed: deep_speed * share as f32, damping: 0.0, kind }
+        MediumCell { speed: deep_speed * share as f32, damping: 0.0, kind, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {

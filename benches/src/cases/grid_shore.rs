@@ -39,7 +39,12 @@ impl Medium for Channel {
             p if p.x > self.end.0 => self.end.1,
             _ => CellKind::Open,
         };
-        MediumCell { speed: deep_speed * (self.depth)(place.x).sqrt() as f32, damping: 0.0, kind }
+        MediumCell {
+            speed: deep_speed * (self.depth)(place.x).sqrt() as f32,
+            damping: 0.0,
+            kind,
+            ..MediumCell::default()
+        }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {

@@ -3,12 +3,13 @@
 use glam::{DVec2, Vec2};
 
 use crate::border::{Axis, Profile};
+use crate::cpu::current::Carrier;
 use crate::cpu::foam::FoamLaw;
 use crate::cpu::kernels::Coefficients;
 use crate::cpu::step::Setting;
 use crate::cpu::tiles::{Mode, Tiles};
 use crate::feed::{Feed, Incident};
-use crate::ground::Ground;
+use crate::ground::{Cells, Ground};
 use crate::window::{Move, Place};
 use crate::{GridDesc, GridError, Stepping, cpu, state::State};
 
@@ -45,6 +46,8 @@ pub struct WaveGrid {
     pub(crate) captured: bool,
     pub(crate) skipping: bool,
     pub(crate) dropped: u64,
+    /// Where there is a current.
+    carrier: Option<Carrier>,
     /// Scratch of sources.
     pub(crate) weights: [Vec<f32>; 2],
 }
@@ -80,6 +83,7 @@ impl WaveGrid {
             skipping: true,
             dropped: 0,
             weights: Default::default(),
+            carrier: None,
             place,
             desc,
         };
@@ -199,6 +203,9 @@ impl WaveGrid {
             return;
         }
         let cells = self.ground.as_ref().and_then(|ground| ground.cells.as_ref());
+        if self.carrier.is_none() && cells.is_some_and(Cells::drifts) {
+            self.carrier = Some(Carrier::new([self.state.nx, self.state.nz], self.profile.thickness));
+        }
         let setting = Setting {
             tiles: &self.tiles,
             axes: &self.axes,
@@ -213,6 +220,9 @@ impl WaveGrid {
                     feed.ask(incident, substep);
                 }
                 feed.correct(&mut self.state.z);
+            }
+            if let (Some(carrier), Some(cells)) = (&mut self.carrier, cells) {
+                carrier.carry([&mut self.state.z, &mut self.state.old], &self.tiles, cells);
             }
         }
         if let Some(cells) = cells {

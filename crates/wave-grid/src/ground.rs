@@ -8,12 +8,13 @@
 
 use std::ops::Range;
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 
+use crate::cpu::current::AT_WALLS;
 use crate::cpu::shift::shift_array;
 use crate::cpu::tiles::{Class, Tiles};
 use crate::desc::TILE;
-use crate::medium::{CellLaw, Coefficient, DEEP_WALL, NEAR_WALL, SharedMedium};
+use crate::medium::{CellLaw, Coefficient, DEEP_WALL, MOST_DRIFT, NEAR_WALL, SharedMedium};
 
 /// Cells around a wall cell in which water makes it a near one: as far as a cubic kernel reads.
 pub(crate) const REACH: usize = 2;
@@ -34,6 +35,8 @@ pub(crate) struct Cells {
     pub(crate) own: [Vec<f32>; 2],
     /// Weight of a face's own jump and of the two beside it.
     pub(crate) weights: [f32; 2],
+    /// Cells that the current along x and z moves in a sub-step; empty while there is none.
+    pub(crate) drift: [Vec<f32>; 2],
 }
 
 /// What a grid knows of the medium.
@@ -81,9 +84,11 @@ impl Ground {
                 self.cells = None;
                 return;
             }
-            let Cells { a, r, faces: [x, z], own: [own_x, own_z], .. } = cells;
-            for array in [a, r, x, z, own_x, own_z] {
-                shift_array(array, nx, nz, shift);
+            let Cells { a, r, faces: [x, z], own: [own_x, own_z], drift: [drift_x, drift_z], .. } = cells;
+            for array in [a, r, x, z, own_x, own_z, drift_x, drift_z] {
+                if !array.is_empty() {
+                    shift_array(array, nx, nz, shift);
+                }
             }
         } else if self.allocate(tiles) {
             self.read(tiles, 0..nx, 0..nz);
@@ -118,19 +123,29 @@ impl Ground {
             return false;
         }
         let [nx, nz] = tiles.cells;
-        let Coefficient { a, r } = self.law.plain();
+        let Coefficient { a, r, .. } = self.law.plain();
         let all = |v: f32| vec![v; nx * nz];
         let (weights, aspect) = (self.law.weights, self.law.aspect);
         let faces = [a, a * aspect];
         let own = faces.map(|face| all(face * weights[0]));
-        self.cells = Some(Cells { nx, nz, a: all(a), aspect, r: all(r), faces: faces.map(all), own, weights });
+        self.cells = Some(Cells {
+            nx,
+            nz,
+            a: all(a),
+            aspect,
+            r: all(r),
+            faces: faces.map(all),
+            own,
+            weights,
+            drift: Default::default(),
+        });
         true
     }
 
     /// Reads a rectangle of cells, and what follows from it.
     fn read(&mut self, tiles: &mut Tiles, x: Range<usize>, z: Range<usize>) {
         let Some(cells) = &mut self.cells else { return };
-        let Coefficient { a, r } = self.law.plain();
+        let Coefficient { a, r, .. } = self.law.plain();
         for tz in tiles.of(1, z.start)..=tiles.of(1, z.end - 1) {
             for tx in tiles.of(0, x.start)..=tiles.of(0, x.end - 1) {
                 let plain = tiles.row(tz)[tx].class == Class::Plain;
@@ -140,18 +155,21 @@ impl Ground {
                     let row = j * cells.nx + across.start..j * cells.nx + across.end;
                     if plain {
                         cells.a[row.clone()].fill(a);
-                        cells.r[row].fill(r);
+                        cells.r[row.clone()].fill(r);
+                        cells.drift.iter_mut().filter(|u| !u.is_empty()).for_each(|u| u[row.clone()].fill(0.0));
                         continue;
                     }
                     for (i, at) in across.clone().zip(row) {
                         let world = [self.corner[0] + i as i64, self.corner[1] + j as i64];
                         let cell = self.law.cell(&*self.medium.0, world);
                         (cells.a[at], cells.r[at]) = (cell.a, cell.r);
+                        cells.set_drift(at, cell.drift);
                     }
                 }
             }
         }
         cells.find_near_walls(&x, &z);
+        cells.calm_at_walls(&x, &z);
         cells.average_faces(&x, &z);
         cells.find_solid_tiles(tiles, &x, &z);
     }
@@ -168,6 +186,21 @@ impl Cells {
         self.a[at] > 0.0 && self.r[at] > 0.0
     }
 
+    fn set_drift(&mut self, at: usize, drift: Vec2) {
+        if !self.drifts() {
+            if drift == Vec2::ZERO {
+                return;
+            }
+            self.drift = [vec![0.0; self.a.len()], vec![0.0; self.a.len()]];
+        }
+        (self.drift[0][at], self.drift[1][at]) = drift.into();
+    }
+
+    /// Whether there is any current.
+    pub(crate) fn drifts(&self) -> bool {
+        !self.drift[0].is_empty()
+    }
+
     /// Tells the walls beside water from those that nothing sees.
     fn find_near_walls(&mut self, x: &Range<usize>, z: &Range<usize>) {
         for j in widened(z, REACH, self.nz) {
@@ -180,6 +213,32 @@ impl Cells {
                 let near = widened(&(j..j + 1), REACH, self.nz)
                     .any(|j| self.a[j * self.nx..][columns.clone()].iter().any(|a| *a > 0.0));
                 self.a[at] = if near { NEAR_WALL } else { DEEP_WALL };
+            }
+        }
+    }
+
+    /// Lets no current run into walls faster than waves spread.
+    fn calm_at_walls(&mut self, x: &Range<usize>, z: &Range<usize>) {
+        if !self.drifts() {
+            return;
+        }
+        let reach = (MOST_DRIFT / AT_WALLS) as usize - 1;
+        for j in widened(z, reach, self.nz) {
+            for i in widened(x, reach, self.nx) {
+                let at = j * self.nx + i;
+                // Deep walls are farther from water than near ones.
+                if self.a[at] != NEAR_WALL && (self.a[at] <= 0.0 || self.r[at] > 0.0) {
+                    continue;
+                }
+                for row in widened(&(j..j + 1), reach, self.nz) {
+                    for column in widened(&(i..i + 1), reach, self.nx) {
+                        let most = AT_WALLS * row.abs_diff(j).max(column.abs_diff(i)) as f32;
+                        for drift in &mut self.drift {
+                            let drift = &mut drift[row * self.nx + column];
+                            *drift = drift.clamp(-most, most);
+                        }
+                    }
+                }
             }
         }
     }
@@ -223,10 +282,15 @@ impl Cells {
                 let (columns, rows) = (tiles.span(0, tx), tiles.span(1, tz));
                 let tile = &mut tiles.tiles[tz * tiles.count[0] + tx];
                 if tile.class != Class::Plain {
-                    let mut cells = rows.flat_map(|j| &self.a[j * self.nx..][columns.clone()]);
+                    let mut cells = rows.clone().flat_map(|j| &self.a[j * self.nx..][columns.clone()]);
                     let solid = cells.clone().all(|a| *a == DEEP_WALL);
                     tile.class = if solid { Class::Solid } else { Class::Mixed };
                     tile.walls = cells.any(|a| *a == NEAR_WALL);
+                    // Also beside the tile: it shares those faces.
+                    let (columns, rows) = (widened(&columns, 1, self.nx), widened(&rows, 1, self.nz));
+                    let mut currents = self.drift.iter().filter(|u| !u.is_empty());
+                    tile.carried = currents
+                        .any(|u| rows.clone().any(|j| u[j * self.nx..][columns.clone()].iter().any(|u| *u != 0.0)));
                 }
             }
         }

@@ -28,12 +28,16 @@ pub struct MediumCell {
     pub damping: f32,
     /// Water or wall.
     pub kind: CellKind,
+    /// Current that carries waves, m/s. Along either axis at most half a cell per sub-step counts: 0.6 of
+    /// [`GridDesc::wave_speed`] or more. Within four cells of a wall
+    /// less does. What is not finite counts as still. It fades to zero in 24 cells before the border layer.
+    pub current: Vec2,
 }
 
 impl Default for MediumCell {
     /// Open deep water.
     fn default() -> Self {
-        Self { speed: f32::INFINITY, damping: 0.0, kind: CellKind::Open }
+        Self { speed: f32::INFINITY, damping: 0.0, kind: CellKind::Open, current: Vec2::ZERO }
     }
 }
 
@@ -42,7 +46,7 @@ pub trait Medium: Send + Sync {
     /// The medium at a world place (x, z), for a grid whose speed in deep water is `deep_speed`.
     fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell;
 
-    /// Whether all water between two world corners is open, undamped and as fast as in deep water. Where it is, nothing
+    /// Whether all water between two world corners is open, undamped, still and as fast as in deep water. Where it is, nothing
     /// is stored and the step costs what it does without a medium. `false` is always allowed.
     fn is_plain(&self, low: DVec2, high: DVec2, deep_speed: f32) -> bool;
 }
@@ -70,6 +74,8 @@ pub(crate) struct CellLaw {
     damping: f32,
     /// Of a face's own jump and of the two beside it.
     pub(crate) weights: [f32; 2],
+    /// dt / h along x and z.
+    drift: Vec2,
 }
 
 /// Coefficients of a cell: a = (c dt / h)^2 along x, at most 0 for walls; r = 1 / (1 + sigma dt / 2), 0 for what is not water.
@@ -77,7 +83,12 @@ pub(crate) struct CellLaw {
 pub(crate) struct Coefficient {
     pub(crate) a: f32,
     pub(crate) r: f32,
+    /// Cells that the current moves in a sub-step.
+    pub(crate) drift: Vec2,
 }
+
+/// Most cells that a current moves in a sub-step.
+pub(crate) const MOST_DRIFT: f32 = 0.5;
 
 /// `a` of a wall that no water is within two cells of.
 pub(crate) const DEEP_WALL: f32 = -1.0;
@@ -95,27 +106,30 @@ impl CellLaw {
             aspect: stepping.aspect(),
             half_dt: (0.5 * stepping.dt) as f32,
             damping: desc.damping,
+            drift: Vec2::from(desc.cell_size.map(|h| (stepping.dt / f64::from(h)) as f32)),
         }
     }
 
     /// Of open deep water.
     pub(crate) fn plain(&self) -> Coefficient {
-        Coefficient { a: self.a, r: 1.0 / (1.0 + self.half_dt * self.damping) }
+        Coefficient { a: self.a, r: 1.0 / (1.0 + self.half_dt * self.damping), drift: Vec2::ZERO }
     }
 
     /// Of a world cell.
     pub(crate) fn cell(&self, medium: &dyn Medium, cell: [i64; 2]) -> Coefficient {
         let place = DVec2::new(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5) * self.cell_size;
-        let MediumCell { speed, damping, kind } = medium.at(place, self.deep_speed);
+        let MediumCell { speed, damping, kind, current } = medium.at(place, self.deep_speed);
         let ratio = if speed < self.deep_speed { speed / self.deep_speed } else { 1.0 };
         let a = self.a * ratio * ratio;
         // Also a speed that is NaN, negative or so low that nothing is left of `a`.
         let wet = speed > 0.0 && a > 1e-12;
         let damping = if damping > 0.0 { damping.min(1e6) } else { 0.0 };
+        let current = if current.is_finite() { current } else { Vec2::ZERO };
+        let drift = (current * self.drift).clamp(Vec2::splat(-MOST_DRIFT), Vec2::splat(MOST_DRIFT));
         match kind {
-            CellKind::Open if wet => Coefficient { a, r: 1.0 / (1.0 + self.half_dt * (self.damping + damping)) },
-            CellKind::Fixed => Coefficient { a: if wet { a } else { self.a }, r: 0.0 },
-            _ => Coefficient { a: DEEP_WALL, r: 0.0 },
+            CellKind::Open if wet => Coefficient { a, r: 1.0 / (1.0 + self.half_dt * (self.damping + damping)), drift },
+            CellKind::Fixed => Coefficient { a: if wet { a } else { self.a }, r: 0.0, drift: Vec2::ZERO },
+            _ => Coefficient { a: DEEP_WALL, r: 0.0, drift: Vec2::ZERO },
         }
     }
 }

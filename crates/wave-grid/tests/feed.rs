@@ -127,7 +127,7 @@ struct Channel;
 impl Medium for Channel {
     fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
         let kind = if place.y.abs() > 10.0 { CellKind::Wall } else { CellKind::Open };
-        MediumCell { speed: deep_speed, damping: 0.0, kind }
+        MediumCell { speed: deep_speed, damping: 0.0, kind, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {

@@ -51,7 +51,12 @@ impl Rough {
             _ => CellKind::Open,
         };
         let speed = if what < 0.6 { 25.0 * scramble(x, z, 3).max(0.01) } else { 25.0 };
-        MediumCell { speed, damping: if what < 0.2 { 3.0 * scramble(x, z, 4) } else { 0.0 }, kind }
+        MediumCell {
+            speed,
+            damping: if what < 0.2 { 3.0 * scramble(x, z, 4) } else { 0.0 },
+            kind,
+            ..MediumCell::default()
+        }
     }
 }
 
@@ -60,7 +65,7 @@ impl Medium for Rough {
         let cell = |x: f64| (x / 0.5).floor() as i64;
         // Every third stretch of 128 cells is deep sea.
         if cell(place.x).rem_euclid(384) < 128 {
-            return MediumCell { speed: 25.0, damping: 0.0, kind: CellKind::Open };
+            return MediumCell { speed: 25.0, damping: 0.0, kind: CellKind::Open, ..MediumCell::default() };
         }
         Self::cell(cell(place.x), cell(place.y))
     }
@@ -178,7 +183,7 @@ proptest! {
                 _ => CellKind::Fixed,
             };
             let pick = |k: usize| if (which + k).is_multiple_of(3) { nonsense[which % 8] } else { values[(which + k) % 4] };
-            MediumCell { speed: pick(0), damping: pick(1), kind }
+            MediumCell { speed: pick(0), damping: pick(1), kind, ..MediumCell::default() }
         };
         let mut grid = WaveGrid::new(desc(64)).unwrap();
         grid.set_medium(Some(Arc::new(Cells(medium))));
@@ -202,7 +207,7 @@ proptest! {
                 12.. => CellKind::Fixed,
                 _ => CellKind::Open,
             };
-            MediumCell { speed: 25.0, damping: 0.0, kind }
+            MediumCell { speed: 25.0, damping: 0.0, kind, ..MediumCell::default() }
         };
         grid.set_medium(Some(Arc::new(Cells(quay))));
         let written = grid.add(stone(x, z, radius, volume));
@@ -217,7 +222,7 @@ proptest! {
 fn basin(open: std::ops::Range<i64>) -> Arc<dyn Medium> {
     Arc::new(Cells(move |[x, z]: [i64; 2]| {
         let kind = if open.contains(&x) && open.contains(&z) { CellKind::Open } else { CellKind::Wall };
-        MediumCell { speed: 25.0, damping: 0.0, kind }
+        MediumCell { speed: 25.0, damping: 0.0, kind, ..MediumCell::default() }
     }))
 }
 

@@ -30,7 +30,7 @@ struct Open;
 
 impl Medium for Open {
     fn at(&self, _: DVec2, deep_speed: f32) -> MediumCell {
-        MediumCell { speed: deep_speed, damping: 0.0, kind: CellKind::Open }
+        MediumCell { speed: deep_speed, damping: 0.0, kind: CellKind::Open, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {
@@ -93,7 +93,7 @@ impl Medium for Rough {
             _ => CellKind::Open,
         };
         let speed = if (word >> 52) & 3 == 0 { 0.05 } else { 1.0 };
-        MediumCell { speed: deep_speed * speed, damping: 0.0, kind }
+        MediumCell { speed: deep_speed * speed, damping: 0.0, kind, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {

@@ -15,7 +15,7 @@ struct Quay {
 impl Medium for Quay {
     fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
         let kind = if place.x > self.x { self.kind } else { CellKind::Open };
-        MediumCell { speed: deep_speed, damping: 0.0, kind }
+        MediumCell { speed: deep_speed, damping: 0.0, kind, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _low: DVec2, high: DVec2, _deep_speed: f32) -> bool {
@@ -104,7 +104,7 @@ struct Beach;
 impl Medium for Beach {
     fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
         let share = (1.0 - (place.x as f32 + 10.0) / 20.0).clamp(0.3, 1.0);
-        MediumCell { speed: deep_speed * share, damping: 0.0, kind: CellKind::Open }
+        MediumCell { speed: deep_speed * share, damping: 0.0, kind: CellKind::Open, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _low: DVec2, high: DVec2, _deep_speed: f32) -> bool {

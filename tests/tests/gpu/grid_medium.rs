@@ -27,7 +27,7 @@ impl Medium for Blocks {
         };
         let slow = place.x >= 40.0 && h > 0.5;
         let speed = if slow { deep_speed * (1.3 - h) } else { deep_speed };
-        MediumCell { speed, damping: if slow { h } else { 0.0 }, kind }
+        MediumCell { speed, damping: if slow { h } else { 0.0 }, kind, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, high: DVec2, _: f32) -> bool {

@@ -132,7 +132,7 @@ impl Medium for Terrain {
             None => CellKind::Open,
         };
         let speed = deep_speed * self.speed_ratio(depth, deep_speed);
-        MediumCell { speed, damping: self.damping(place, depth), kind }
+        MediumCell { speed, damping: self.damping(place, depth), kind, ..MediumCell::default() }
     }
 
     fn is_plain(&self, low: DVec2, high: DVec2, deep_speed: f32) -> bool {

@@ -1,5 +1,6 @@
 //! The grid's passes on the CPU, the twins of the WGSL passes of the same names.
 
+pub(crate) mod current;
 pub(crate) mod draw;
 pub(crate) mod foam;
 pub(crate) mod ghosts;

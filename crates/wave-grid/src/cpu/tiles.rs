@@ -46,6 +46,8 @@ pub(crate) struct Tile {
     pub(crate) class: Class,
     /// It has walls beside water.
     pub(crate) walls: bool,
+    /// It has a current.
+    pub(crate) carried: bool,
 }
 
 impl Tile {
@@ -192,7 +194,7 @@ impl Tiles {
         self.offset = offset;
         self.active = 0;
         for tile in &mut self.tiles {
-            *tile = Tile { class: tile.class, walls: tile.walls, ..Tile::default() };
+            *tile = Tile { class: tile.class, walls: tile.walls, carried: tile.carried, ..Tile::default() };
         }
     }
 }
