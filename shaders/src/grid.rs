@@ -10,9 +10,12 @@
 //! branch, and its cost follows the number of loads and stores, however wide. There a thread walks up all 16 rows of a
 //! tile and keeps rows in registers (5.2 ms at 512 x 512 with a row a thread, 2.5 so), on a GPU it takes a row.
 
-use bytemuck::{Pod, Zeroable};
+mod params;
 
-use crate::{Pass, param_layout, surface::MAX_GRIDS};
+use crate::{Pass, surface::MAX_GRIDS};
+
+use params::{DRAW_PARAMS, PARAMS, SCHEDULE_PARAMS};
+pub use params::{GridCell, GridDispatch, GridDraw, GridParams, GridSource, GridTile, TickParams};
 
 /// Cells along one side of a tile.
 pub const TILE: u32 = 16;
@@ -40,104 +43,25 @@ pub const SHIFTED: u32 = 1;
 /// [`GridParams::moved`]: nothing of the old window remains.
 pub const CLEARED: u32 = 2;
 
-/// A grid in one tick.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct GridParams {
-    /// Where the window's cell (0, 0) is stored.
-    pub corner: [u32; 2],
-    /// Cells of the window.
-    pub cells: [u32; 2],
-    /// Cells of the torus, multiples of 16.
-    pub torus: [u32; 2],
-    /// Shift of this tick: cell i held before what is now at i - shift.
-    pub shift: [i32; 2],
-    /// First `vec4` of the grid's arrays.
-    pub base: u32,
-    /// `vec4`s of one array.
-    pub stride: u32,
-    /// Which of the two levels holds the current state as the tick begins.
-    pub parity: u32,
-    /// Sub-steps of a tick.
-    pub substeps: u32,
-    /// [`STOOD`], [`SHIFTED`] or [`CLEARED`].
-    pub moved: u32,
-    /// Thickness W of the border layer, cells.
-    pub thickness: u32,
-    /// Exponent of its profile, 3 or 4.
-    pub exponent: u32,
-    /// Z at its outer edge along x.
-    pub peak: f32,
-    /// a w0 and a w1 along x.
-    pub weights: [f32; 2],
-    /// sigma dt / 2.
-    pub damping: f32,
-    /// Foam: excess per metre of Laplacian.
-    pub foam_scale: f32,
-    /// Foam: where the excess begins.
-    pub foam_onset: f32,
-    /// Foam: growth in a tick.
-    pub foam_growth: f32,
-    /// Foam: factor left after a tick.
-    pub foam_keep: f32,
-    /// a of deep water along x.
-    pub deep: f32,
-    /// Foam over a bed: height at which waves of deep water's a begin to break, metres.
-    pub foam_depth: f32,
-    /// Foam at walls: full rate per metre of rise in a sub-step.
-    pub foam_splash: f32,
-    /// Z at the layer's outer edge along z.
-    pub peak_z: f32,
-    /// a along z over a along x.
-    pub aspect: f32,
-}
+/// Waves below this height (metres) are let go: 0.01 mm.
+pub const QUIET_HEIGHT: f32 = 1e-5;
+/// Foam below this is let go.
+pub const QUIET_FOAM: f32 = 1e-3;
 
-/// The grids of one tick, those with the most sub-steps first.
-pub type TickParams = [GridParams; MAX_GRIDS];
-
-/// A tile to be stepped in one tick: a `vec4<u32>` in WGSL, of which a step reads the first component only.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct GridTile {
-    /// Tile on the torus, and its grid's place in [`TickParams`]: column + 2^8 row + 2^16 grid.
-    pub place: u32,
-    /// First of its sources.
-    pub first_source: u32,
-    /// How many.
-    pub source_count: u32,
-    /// 1 where the medium is to be looked at.
-    pub mixed: u32,
-}
-
-/// What a cell lies in, as uploaded.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct GridCell {
-    /// Cell on the torus, row-major, and its grid's place in [`TickParams`]: cell + 2^24 grid.
-    pub place: u32,
-    /// (c dt / h)^2 along x; at most 0 for a wall, 0 for one beside water.
-    pub a: f32,
-    /// 1 / (1 + sigma dt / 2); 0 for what is not open water.
-    pub r: f32,
-    /// Padding.
-    pub pad: u32,
-}
-
-/// A source as a tile sees it.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct GridSource {
-    /// Centre, cells from the window's corner.
-    pub center: [f32; 2],
-    /// Where it ends along x, cells.
-    pub outer: f32,
-    /// Height in the middle, metres.
-    pub height: f32,
-    /// Foam in the middle.
-    pub foam: f32,
-    /// Reach along x over reach along z, in cells.
-    pub stretch: f32,
-}
+/// [`GridTile::flags`]: stepped in this tick, whatever its marks.
+pub const FORCED: u32 = 64;
+/// [`GridTile::flags`]: never stepped.
+pub const SOLID: u32 = 128;
+/// [`GridTile::flags`]: the medium is to be looked at.
+pub const MIXED_TILE: u32 = 32;
+/// Lists of tiles to be stepped, one a kind; the next list is of tiles to be prepared.
+pub const KINDS: u32 = 4;
+/// Words of a tick's counts: for each list three numbers of workgroups and one of tiles, then a grid's tiles each.
+pub const COUNT_WORDS: u32 = ACTIVE_WORD + MAX_GRIDS as u32;
+/// Where in a tick's counts the tiles of each grid are.
+pub const ACTIVE_WORD: u32 = 4 * (KINDS + 1);
+/// Threads of `grid_schedule`, a tile each.
+pub const SCHEDULE_THREADS: u32 = 64;
 
 /// How threads share the tiles in `grid_step`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -160,105 +84,19 @@ impl StepShape {
     }
 }
 
-/// Which dispatch this is.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct GridDispatch {
-    /// First tile of the list.
-    pub first: u32,
-    /// Sub-step within the tick.
-    pub substep: u32,
-    /// How many there are; for `grid_medium` these are cells.
-    pub count: u32,
-    /// Padding.
-    pub pad: u32,
-}
-
-/// A grid to be drawn.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct GridDraw {
-    /// Where the window's cell (0, 0) is stored.
-    pub corner: [u32; 2],
-    /// Cells of the window.
-    pub cells: [u32; 2],
-    /// Cells of the torus.
-    pub torus: [u32; 2],
-    /// Middle of the fade, cells from the corner.
-    pub middle: [f32; 2],
-    /// Distance from the middle where the fade reaches zero, cells.
-    pub outer: [f32; 2],
-    /// Width of the fade, cells.
-    pub width: f32,
-    /// Between the tick before (0) and the last one (1).
-    pub alpha: f32,
-    /// First `f32` of the current heights.
-    pub now: u32,
-    /// First `f32` of the heights before.
-    pub previous: u32,
-    /// First `f32` of the foam.
-    pub foam: u32,
-    /// First element in the pool.
-    pub out: u32,
-    /// First `f32` of its a in the medium, or [`NO_MEDIUM`].
-    pub medium: u32,
-    /// Padding.
-    pub pad: [u32; 3],
-}
-
-const PARAMS: &[crate::ParamLayout] = &[
-    param_layout!(GridParams {
-        corner,
-        cells,
-        torus,
-        shift,
-        base,
-        stride,
-        parity,
-        substeps,
-        moved,
-        thickness,
-        exponent,
-        peak,
-        weights,
-        damping,
-        foam_scale,
-        foam_onset,
-        foam_growth,
-        foam_keep,
-        deep,
-        foam_depth,
-        foam_splash,
-        peak_z,
-        aspect
-    }),
-    param_layout!(GridSource { center, outer, height, foam, stretch }),
-    param_layout!(GridDispatch { first, substep, count, pad }),
-    param_layout!(GridCell { place, a, r, pad }),
-];
-
-const DRAW_PARAMS: &[crate::ParamLayout] = &[param_layout!(GridDraw {
-    corner,
-    cells,
-    torus,
-    middle,
-    outer,
-    width,
-    alpha,
-    now,
-    previous,
-    foam,
-    out,
-    medium,
-    pad
-})];
-
 fn constants() -> String {
     format!(
         "const TILE: u32 = {TILE}u;\nconst TILE_THREADS: u32 = {TILE_THREADS}u;\n\
          const HEIGHT_LIMIT: f32 = {HEIGHT_LIMIT:?};\nconst TINY: f32 = {TINY:?};\n\
          const MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst MEDIUM_THREADS: u32 = {MEDIUM_THREADS}u;\n\
-         const SHIFTED: u32 = {SHIFTED}u;\nconst CLEARED: u32 = {CLEARED}u;\n"
+         const STOOD: u32 = {STOOD}u;\nconst SHIFTED: u32 = {SHIFTED}u;\nconst CLEARED: u32 = {CLEARED}u;\n\
+         const QUIET_HEIGHT: f32 = {QUIET_HEIGHT:?};\nconst QUIET_FOAM: f32 = {QUIET_FOAM:?};\n\
+         const BUSY: u32 = 1u;\nconst FOAMED: u32 = 2u;\nconst STEPPED: u32 = 4u;\n\
+         const PREPARED: u32 = 8u;\nconst ENDING: u32 = 16u;\n\
+         const FORCED: u32 = {FORCED}u;\nconst SOLID: u32 = {SOLID}u;\nconst MIXED_TILE: u32 = {MIXED_TILE}u;\n\
+         const KIND_MASK: u32 = {}u;\nconst PREPARE_LIST: u32 = {KINDS}u;\nconst ACTIVE_WORD: u32 = {ACTIVE_WORD}u;\n\
+         const SCHEDULE_THREADS: u32 = {SCHEDULE_THREADS}u;\n",
+        KINDS - 1
     )
 }
 
@@ -270,14 +108,24 @@ fn draw_constants() -> String {
 }
 
 const SHARED: &str = include_str!("../wgsl/shared/grid.wgsl");
+const LISTS: &str = include_str!("../wgsl/shared/grid_lists.wgsl");
 
 /// Stores the medium of listed cells, and stills those that are not open water.
 pub const MEDIUM: Pass = Pass {
     name: "grid_medium",
     constants,
-    parts: &[SHARED, include_str!("../wgsl/grid_medium.wgsl")],
+    parts: &[SHARED, LISTS, include_str!("../wgsl/grid_medium.wgsl")],
     entry_points: &["grid_medium"],
     params: PARAMS,
+};
+
+/// Lists the tiles to be stepped and to be prepared. `override TILES_PER_GROUP` is that of the steps' [`StepShape`].
+pub const SCHEDULE: Pass = Pass {
+    name: "grid_schedule",
+    constants,
+    parts: &[SHARED, include_str!("../wgsl/grid_schedule.wgsl")],
+    entry_points: &["grid_schedule"],
+    params: SCHEDULE_PARAMS,
 };
 
 /// Moves the window, keeps the last tick's heights, adds sources. `override MOVED` tells whether a grid among those covered
@@ -285,7 +133,7 @@ pub const MEDIUM: Pass = Pass {
 pub const PREPARE: Pass = Pass {
     name: "grid_prepare",
     constants,
-    parts: &[SHARED, include_str!("../wgsl/grid_prepare.wgsl")],
+    parts: &[SHARED, LISTS, include_str!("../wgsl/grid_prepare.wgsl")],
     entry_points: &["grid_prepare"],
     params: PARAMS,
 };
@@ -298,6 +146,7 @@ pub const STEP: Pass = Pass {
     constants,
     parts: &[
         SHARED,
+        LISTS,
         include_str!("../wgsl/shared/grid_rows.wgsl"),
         include_str!("../wgsl/shared/grid_flux.wgsl"),
         include_str!("../wgsl/shared/grid_layer.wgsl"),
@@ -318,4 +167,4 @@ pub const DRAW: Pass = Pass {
 };
 
 /// The passes of this area.
-pub const PASSES: &[Pass] = &[MEDIUM, PREPARE, STEP, DRAW];
+pub const PASSES: &[Pass] = &[MEDIUM, SCHEDULE, PREPARE, STEP, DRAW];

@@ -1,5 +1,5 @@
-// The start of a tick: what entered the window is calm, the heights of the last tick are kept for drawing, sources are
-// written into z and z_old. Each thread touches its own four cells only.
+// The start of a tick in tiles that moved, end, or have sources: what entered the window is calm, the heights of the last
+// tick are kept for drawing, sources are written into z and z_old. Each thread touches its own four cells only.
 override MOVED: bool = true;
 override MEDIUM: bool = true;
 
@@ -8,7 +8,9 @@ fn grid_prepare(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let tile = grid_tiles[grid_dispatch.first + group.x].x;
+    let entry = grid_list[grid_dispatch.first + group.x];
+    let tile = entry.x;
+    let ending = (entry.w & ENDING) != 0u;
     let grid = &grid_params[tile >> 16u];
     let cells = (*grid).cells;
     let at = place_of(tile, local, (*grid).corner, (*grid).torus);
@@ -24,7 +26,7 @@ fn grid_prepare(
 
     if MOVED {
         let w = (*grid).thickness;
-        let stood = (*grid).moved == 0u;
+        let stood = (*grid).moved == STOOD;
         let was = vec4<i32>(at.i) + vec4<i32>((*grid).shift.x);
         let was_row = i32(at.j) + (*grid).shift.y;
         let row_held = (*grid).moved == SHIFTED && at.j < cells.y && was_row >= 0 && was_row < i32(cells.y);
@@ -43,16 +45,15 @@ fn grid_prepare(
         grid_memory[first + 2u * stride] = select(vec4<f32>(0.0), grid_memory[first + 2u * stride], keep_z);
         grid_memory[first + 3u * stride] = select(vec4<f32>(0.0), grid_memory[first + 3u * stride], keep_z);
     }
-    grid_heights[first + 2u * stride] = now;
+    grid_heights[first + 2u * stride] = select(now, vec4<f32>(0.0), ending);
 
     var inside = (at.i < vec4<u32>(cells.x)) & vec4<bool>(at.j < cells.y);
-    let sources = grid_tiles[grid_dispatch.first + group.x].yzw;
     if MEDIUM {
         // Sources are written into open water only.
         let r = grid_ground[(*grid).base / 2u + stride + offset];
-        inside = inside & (vec4<bool>(sources.z == 0u) | (r > vec4<f32>(0.0)));
+        inside = inside & (vec4<bool>((entry.w & MIXED_TILE) == 0u) | (r > vec4<f32>(0.0)));
     }
-    for (var s = sources.x; s < sources.x + sources.y; s++) {
+    for (var s = entry.y; s < entry.y + entry.z; s++) {
         let source = grid_sources[s];
         let dx = vec4<f32>(at.i) + 0.5 - source.center.x;
         let dz = source.stretch * (f32(at.j) + 0.5 - source.center.y);
@@ -62,7 +63,12 @@ fn grid_prepare(
         old = clamp(old + weight * source.height, vec4<f32>(-HEIGHT_LIMIT), vec4<f32>(HEIGHT_LIMIT));
         foam = min(foam + weight * source.foam, vec4<f32>(1.0));
     }
-    grid_heights[now_at] = now;
-    grid_heights[old_at] = old;
-    grid_heights[foam_at] = foam;
+    grid_heights[now_at] = select(now, vec4<f32>(0.0), ending);
+    grid_heights[old_at] = select(old, vec4<f32>(0.0), ending);
+    grid_heights[foam_at] = select(foam, vec4<f32>(0.0), ending);
+    if ending {
+        for (var k = 0u; k < 4u; k++) {
+            grid_memory[first + k * stride] = vec4<f32>(0.0);
+        }
+    }
 }

@@ -22,43 +22,33 @@ struct GridParams {
     foam_splash: f32,
     peak_z: f32,
     aspect: f32,
-}
-
-struct GridSource {
-    center: vec2<f32>,
-    outer: f32,
-    height: f32,
-    foam: f32,
-    stretch: f32,
+    flip: u32,
+    pad_x: u32,
+    pad_y: u32,
+    pad_z: u32,
 }
 
 struct GridDispatch {
     first: u32,
     substep: u32,
     count: u32,
-    pad: u32,
-}
-
-struct GridCell {
-    place: u32,
-    a: f32,
-    r: f32,
-    pad: u32,
+    work: u32,
 }
 
 @group(0) @binding(0) var<uniform> grid_dispatch: GridDispatch;
 @group(0) @binding(1) var<uniform> grid_params: array<GridParams, MAX_GRIDS>;
-// (column + 2^8 row + 2^16 grid, first source, number of sources, mixed)
-@group(0) @binding(2) var<storage, read> grid_tiles: array<vec4<u32>>;
-@group(0) @binding(3) var<storage, read> grid_sources: array<GridSource>;
 // Per grid: z, z (old and new by turns), z of the last tick, foam.
-@group(0) @binding(4) var<storage, read_write> grid_heights: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read_write> grid_heights: array<vec4<f32>>;
 // Per grid: phi_x, phi_x, phi_z, phi_z (old and new by turns).
-@group(0) @binding(5) var<storage, read_write> grid_memory: array<vec4<f32>>;
-
+@group(0) @binding(3) var<storage, read_write> grid_memory: array<vec4<f32>>;
 // Per grid: a, r; see wave-grid's ground.rs.
-@group(0) @binding(6) var<storage, read_write> grid_ground: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read> grid_cells: array<GridCell>;
+@group(0) @binding(4) var<storage, read_write> grid_ground: array<vec4<f32>>;
+
+// Where the marks of a grid's tiles begin that are written (0) or read (1) in this tick.
+fn marks_of(grid: GridParams, read: u32) -> u32 {
+    let tiles = grid.torus / TILE;
+    return grid.base / (TILE * TILE / 2u) + ((grid.flip + read) & 1u) * tiles.x * tiles.y;
+}
 
 // Where a thread's four cells stand.
 struct Place {

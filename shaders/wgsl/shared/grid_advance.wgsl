@@ -17,7 +17,6 @@ struct Own {
     px_east: vec4<f32>,
     pz: vec4<f32>,
     pz_north: vec4<f32>,
-    foam: vec4<f32>,
 }
 
 // What they hold after it.
@@ -25,7 +24,9 @@ struct Next {
     z: vec4<f32>,
     px: vec4<f32>,
     pz: vec4<f32>,
-    foam: vec4<f32>,
+    // How much the water breaks, 0 to 1, and the factor of the foam that is left.
+    breaking: vec4<f32>,
+    keep: vec4<f32>,
 }
 
 // The rows below, here and above, their a where the medium varies.
@@ -77,7 +78,8 @@ fn advance(grid: GridParams, s: Row, c: Row, n: Row, a_s: Row, a_c: Row, a_n: Ro
             excess = select(none, excess, r > none);
             keep = select(none, keep, r > none);
         }
-        next.foam = select(none, min(own.foam * keep + excess * grid.foam_growth, vec4<f32>(1.0)), open);
+        next.breaking = select(none, excess, open);
+        next.keep = select(none, keep, open);
     }
     if LAYER {
         // The ring is zero; it stores the phi of the edges between itself and the last cells.

@@ -41,7 +41,7 @@ fn layer_next(grid: GridParams, z: vec4<f32>, flux: Fluxes, faces: Fluxes, r: ve
     let scale = 1.0 / ((1.0 + 0.5 * zi) * (1.0 + 0.5 * zj));
     let rate = (2.0 * r - 1.0) * (1.0 - 0.5 * zi) * (1.0 - 0.5 * zj);
     let next = flush(z + scale * (rate * (z - own.old) + r * ((plain + 0.5 * layer) - zi * zj * z)));
-    return Next(next, phi_w, phi_s, none);
+    return Next(next, phi_w, phi_s, none, none);
 }
 
 // Waves high against the depth and water that rises fast at a wall break too; see foam.rs of wave-grid.

@@ -6,10 +6,7 @@
 
 use crate::desc::TILE;
 
-/// Waves below this height (metres) are let go: 0.01 mm.
-pub const QUIET_HEIGHT: f32 = 1e-5;
-/// Foam below this is let go.
-pub const QUIET_FOAM: f32 = 1e-3;
+pub use open_water_shaders::grid::{QUIET_FOAM, QUIET_HEIGHT};
 
 /// What a tile does in this tick.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

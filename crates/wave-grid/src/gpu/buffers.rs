@@ -3,11 +3,13 @@
 use std::collections::VecDeque;
 
 use bytemuck::{NoUninit, Zeroable};
-use open_water_shaders::grid::{ARRAYS, GridDispatch, GridDraw, MEDIUM_ARRAYS, TickParams};
+use open_water_shaders::grid::{
+    ACTIVE_WORD, ARRAYS, COUNT_WORDS, GridDispatch, GridDraw, KINDS, MEDIUM_ARRAYS, TILE, TickParams,
+};
 use open_water_shaders::pipeline::bind_group;
 
 use super::MAX_GRIDS;
-use super::pack::{Packer, Tick, Work};
+use super::pack::{self, Packer, Tick, Work};
 use super::pass::{DISPATCH_STRIDE, Passes};
 
 /// A buffer that is written anew and grows in powers of two.
@@ -61,10 +63,25 @@ pub(super) struct Buffers {
     memory: wgpu::Buffer,
     /// Empty while every medium is plain.
     ground: wgpu::Buffer,
-    state_group: Option<wgpu::BindGroup>,
+    /// What the last step of every tile found.
+    marks: wgpu::Buffer,
+    /// What a schedule writes.
+    list: wgpu::Buffer,
+    /// Numbers of workgroups and tiles, of each queued tick.
+    counts: List,
+    groups: Option<Groups>,
     draw_group: Option<(wgpu::Buffer, wgpu::BindGroup)>,
     /// The dispatches' uniforms as uploaded.
     uniforms: Vec<Slot>,
+}
+
+/// Bind groups of the ticks' passes.
+#[derive(Debug)]
+pub(super) struct Groups {
+    pub(super) state: wgpu::BindGroup,
+    pub(super) schedule: wgpu::BindGroup,
+    pub(super) lists: wgpu::BindGroup,
+    pub(super) counts: wgpu::Buffer,
 }
 
 const STATE_USAGE: wgpu::BufferUsages =
@@ -84,7 +101,10 @@ impl Buffers {
             heights: create(device, "grid heights", STATE_USAGE, 16),
             memory: create(device, "grid memory", STATE_USAGE, 16),
             ground: create(device, "grid ground", STATE_USAGE, 16),
-            state_group: None,
+            marks: create(device, "grid marks", STATE_USAGE, 16),
+            list: create(device, "grid list", storage, 16),
+            counts: list("grid counts", storage | wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::COPY_SRC, 4096),
+            groups: None,
             draw_group: None,
             uniforms: Vec::new(),
         }
@@ -104,12 +124,14 @@ impl Buffers {
             (&mut self.heights, "grid heights", bytes),
             (&mut self.memory, "grid memory", bytes),
             (&mut self.ground, "grid ground", if felt { of_ground } else { 0 }),
+            // Two words a tile.
+            (&mut self.marks, "grid marks", 8 * vectors / u64::from(TILE * TILE)),
         ] {
             if bytes > buffer.size() {
                 let larger = create(device, label, STATE_USAGE, bytes);
                 encoder.copy_buffer_to_buffer(buffer, 0, &larger, 0, buffer.size());
                 *buffer = larger;
-                self.state_group = None;
+                self.groups = None;
                 self.draw_group = None;
             }
         }
@@ -123,36 +145,57 @@ impl Buffers {
         passes: &Passes,
         packer: &mut Packer,
         ticks: &VecDeque<Tick>,
-    ) -> &wgpu::BindGroup {
+    ) -> &Groups {
         self.uniforms.clear();
-        for tick in ticks {
-            for Work { first, substep, count, .. } in tick.dispatches(passes.shape) {
+        let mut counts = Vec::with_capacity(ticks.len() * COUNT_WORDS as usize);
+        for (tick, index) in ticks.iter().zip(0..) {
+            let of_tick = index * COUNT_WORDS;
+            for Work { first, substep, count, groups, .. } in tick.dispatches() {
+                let work = match groups {
+                    pack::Groups::Listed(list) => of_tick + 4 * list,
+                    pack::Groups::Counted(_) => of_tick,
+                };
                 let mut slot = Slot::zeroed();
-                slot[0] = GridDispatch { first, substep, count, pad: 0 };
+                slot[0] = GridDispatch { first, substep, count, work };
                 self.uniforms.push(slot);
             }
+            let mut own = [0u32; COUNT_WORDS as usize];
+            own[..ACTIVE_WORD as usize].as_chunks_mut::<4>().0.fill([0, 1, 1, 0]);
+            counts.extend(own);
         }
         let mut stale = self.dispatches.write(device, queue, &self.uniforms);
         stale |= self.params.write(device, queue, &packer.params);
         stale |= self.tiles.write(device, queue, &packer.tiles);
         stale |= self.sources.write(device, queue, &packer.sources);
         stale |= self.cells.write(device, queue, &packer.cells);
+        stale |= self.counts.write(device, queue, &counts);
+        let list = u64::from(packer.most_tiles * (KINDS + 1)) * 16;
+        if list > self.list.size() {
+            self.list = create(device, "grid list", wgpu::BufferUsages::STORAGE, list);
+            stale = true;
+        }
         packer.clear();
         if stale {
-            self.state_group = None;
+            self.groups = None;
         }
-        self.state_group.get_or_insert_with(|| {
-            let resources = [
+        self.groups.get_or_insert_with(|| {
+            let state = [
                 first(&self.dispatches, size_of::<GridDispatch>()),
                 first(&self.params, size_of::<TickParams>()),
-                self.tiles.buffer.as_entire_binding(),
-                self.sources.buffer.as_entire_binding(),
                 self.heights.as_entire_binding(),
                 self.memory.as_entire_binding(),
                 self.ground.as_entire_binding(),
-                self.cells.buffer.as_entire_binding(),
             ];
-            bind_group(device, "grid state", &passes.state_layout, &resources)
+            let schedule = [&self.tiles.buffer, &self.list, &self.counts.buffer, &self.marks];
+            let lists = [&self.sources.buffer, &self.cells.buffer, &self.list, &self.counts.buffer, &self.marks];
+            let [schedule, lists] = [&schedule[..], &lists[..]]
+                .map(|buffers| buffers.iter().map(|buffer| buffer.as_entire_binding()).collect::<Vec<_>>());
+            Groups {
+                state: bind_group(device, "grid state", &passes.state_layout, &state),
+                schedule: bind_group(device, "grid schedule", &passes.schedule_layout, &schedule),
+                lists: bind_group(device, "grid lists", &passes.lists_layout, &lists),
+                counts: self.counts.buffer.clone(),
+            }
         })
     }
 

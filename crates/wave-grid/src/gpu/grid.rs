@@ -24,6 +24,10 @@ pub(super) struct Grid {
     /// First `vec4` of its arrays.
     pub(super) base: u32,
     pub(super) parity: u32,
+    /// Which set of its tiles' marks the next tick writes.
+    pub(super) flip: u32,
+    /// Ticks queued so far.
+    pub(super) ticks: u64,
     pub(super) shift: [i64; 2],
     pub(super) clear: bool,
     /// Sources for the next tick, and the corner of the window they were placed in.

@@ -25,7 +25,7 @@ use crate::{GridDesc, GridError, Source, Window};
 
 use buffers::Buffers;
 use grid::Grid;
-use pack::{Packer, Work};
+use pack::{Kind, Packer};
 use pass::Passes;
 
 /// Most grids.
@@ -97,6 +97,8 @@ impl GpuGrids {
             torus,
             base,
             parity: 0,
+            flip: free.map_or(0, |at| self.grids[at].flip),
+            ticks: 0,
             shift: [0; 2],
             // What an earlier grid left there.
             clear: free.is_some(),
@@ -203,7 +205,7 @@ impl GpuGrids {
 
     /// Dispatches that the next [`Self::encode`] will encode; zero when all grids sleep.
     pub fn pending_dispatches(&self) -> usize {
-        self.ticks.iter().map(|tick| tick.dispatches(self.passes.shape).count()).sum()
+        self.ticks.iter().map(|tick| tick.dispatches().count()).sum()
     }
 
     fn reserve(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
@@ -217,16 +219,24 @@ impl GpuGrids {
             return;
         }
         self.reserve(device, encoder);
-        let state_group = self.buffers.upload(device, queue, &self.passes, &mut self.packer, &self.ticks);
+        let groups = self.buffers.upload(device, queue, &self.passes, &mut self.packer, &self.ticks);
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() });
         let mut dispatch = 0;
         for (index, tick) in (0..).zip(self.ticks.drain(..)) {
             let params = index * size_of::<TickParams>() as u32;
-            for Work { kind, groups, .. } in tick.dispatches(self.passes.shape) {
-                pass.set_pipeline(self.passes.of(kind));
-                pass.set_bind_group(0, state_group, &[dispatch * pass::DISPATCH_STRIDE, params]);
-                pass.dispatch_workgroups(groups, 1, 1);
+            for work in tick.dispatches() {
+                pass.set_pipeline(self.passes.of(work.kind));
+                pass.set_bind_group(0, &groups.state, &[dispatch * pass::DISPATCH_STRIDE, params]);
+                let lists = if matches!(work.kind, Kind::Schedule) { &groups.schedule } else { &groups.lists };
+                pass.set_bind_group(1, lists, &[]);
+                match work.groups {
+                    pack::Groups::Counted(count) => pass.dispatch_workgroups(count, 1, 1),
+                    pack::Groups::Listed(list) => {
+                        let word = u64::from(index * shader::COUNT_WORDS + 4 * list);
+                        pass.dispatch_workgroups_indirect(&groups.counts, 4 * word);
+                    }
+                }
                 dispatch += 1;
             }
         }

@@ -1,9 +1,11 @@
 //! Turns a tick of all grids into what the passes read: parameters, tiles, sources.
 
 use open_water_shaders::grid::{
-    CLEARED, GridCell, GridParams, GridSource, GridTile, MEDIUM_THREADS, SHIFTED, STOOD, StepShape, TickParams,
+    CLEARED, FORCED, GridCell, GridParams, GridSource, GridTile, KINDS, MEDIUM_THREADS, MIXED_TILE, SCHEDULE_THREADS,
+    SHIFTED, SOLID, STOOD, TickParams,
 };
 
+use super::GpuGridId;
 use super::grid::Grid;
 use crate::TILE;
 use crate::cpu::tiles::Class;
@@ -18,33 +20,35 @@ pub(super) struct TileKind {
     pub(super) mixed: bool,
 }
 
-/// The kinds in the order of the list.
-const KINDS: [TileKind; 4] = [
-    TileKind { layer: false, mixed: false },
-    TileKind { layer: true, mixed: false },
-    TileKind { layer: false, mixed: true },
-    TileKind { layer: true, mixed: true },
-];
+impl TileKind {
+    /// The kind of a list.
+    fn of(list: usize) -> Self {
+        Self { layer: list & 1 != 0, mixed: list & 2 != 0 }
+    }
+}
 
-/// A queued tick: its tiles stand by kind, and among those of a kind the ones of the grids with most sub-steps first.
+/// A queued tick.
 #[derive(Debug)]
 pub(super) struct Tick {
-    /// First of its tiles in the list.
+    /// First of its tiles in the upload, and how many: all of the awake grids.
     first: u32,
-    /// Tiles of each kind.
-    tiles: [u32; 4],
+    count: u32,
     /// First of the cells whose medium it stores, and how many.
     cells: [u32; 2],
     /// A grid moved.
     moved: bool,
+    /// A tile is mixed.
+    medium: bool,
     pub(super) substeps: Vec<Substep>,
+    /// Which grid stands at each place of its parameters, and the number of its tick.
+    pub(super) grids: Vec<(GpuGridId, u64)>,
 }
 
 /// A sub-step covers the grids that have so many.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Substep {
-    /// Tiles of each kind.
-    tiles: [u32; 4],
+    /// Whether a grid has tiles for each list.
+    lists: [bool; KINDS as usize],
     /// It is the last of some grid.
     last: bool,
 }
@@ -53,45 +57,48 @@ pub(super) struct Substep {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Kind {
     Medium,
+    Schedule,
     Prepare { moved: bool, medium: bool },
     Step { tiles: TileKind, last: bool },
+}
+
+/// How many workgroups a dispatch has.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Groups {
+    Counted(u32),
+    /// As many as the tick's schedule found for a list.
+    Listed(u32),
 }
 
 /// What a dispatch runs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Work {
     pub(super) kind: Kind,
-    /// First tile or cell of the list, how many of what a sub-step or the medium takes, sub-step.
+    /// First tile or cell, how many tiles the tick has or cells there are, sub-step.
     pub(super) first: u32,
     pub(super) count: u32,
     pub(super) substep: u32,
-    pub(super) groups: u32,
+    pub(super) groups: Groups,
 }
 
 impl Tick {
     /// The tick's dispatches in order.
-    pub(super) fn dispatches(&self, shape: StepShape) -> impl Iterator<Item = Work> {
-        let [first_cell, count] = self.cells;
-        let groups = count.div_ceil(MEDIUM_THREADS);
-        let medium = Work { kind: Kind::Medium, first: first_cell, count, substep: 0, groups };
-        let prepare = Work {
-            kind: Kind::Prepare { moved: self.moved, medium: self.tiles[2] + self.tiles[3] > 0 },
-            first: self.first,
-            count: 0,
-            substep: 0,
-            groups: self.tiles.iter().sum(),
-        };
-        let steps = (0..).zip(&self.substeps).flat_map(move |(substep, &Substep { tiles, last })| {
-            let mut start = self.first;
-            let works: [Work; 4] = std::array::from_fn(|k| {
-                let first = start;
-                start += self.tiles[k];
-                let (count, groups) = (tiles[k], tiles[k].div_ceil(shape.tiles()));
-                Work { kind: Kind::Step { tiles: KINDS[k], last }, first, count, substep, groups }
-            });
-            works
+    pub(super) fn dispatches(&self) -> impl Iterator<Item = Work> {
+        let [first, cells] = self.cells;
+        let groups = Groups::Counted(cells.div_ceil(MEDIUM_THREADS));
+        let medium = Work { kind: Kind::Medium, first, count: cells, substep: 0, groups };
+        let count = self.count;
+        let groups = Groups::Counted(count.div_ceil(SCHEDULE_THREADS));
+        let schedule = Work { kind: Kind::Schedule, first: self.first, count, substep: 0, groups };
+        let listed =
+            move |kind, list, substep| Work { kind, first: list * count, count, substep, groups: Groups::Listed(list) };
+        let prepare = listed(Kind::Prepare { moved: self.moved, medium: self.medium }, KINDS, 0);
+        let steps = (0..).zip(&self.substeps).flat_map(move |(substep, &Substep { lists, last })| {
+            (0..KINDS)
+                .filter(move |list| lists[*list as usize])
+                .map(move |list| listed(Kind::Step { tiles: TileKind::of(list as usize), last }, list, substep))
         });
-        [medium, prepare].into_iter().chain(steps).filter(|work| work.groups > 0)
+        (cells > 0).then_some(medium).into_iter().chain([schedule, prepare]).chain(steps)
     }
 }
 
@@ -105,6 +112,10 @@ pub(super) struct Packer {
     pub(super) cells: Vec<GridCell>,
     /// ((grid, place of a tile), source).
     placed: Vec<((u32, u32), GridSource)>,
+    /// (grid, place of a tile) with a source in it or beside it.
+    forced: Vec<(u32, u32)>,
+    /// Most tiles of a tick.
+    pub(super) most_tiles: u32,
 }
 
 impl Packer {
@@ -114,6 +125,7 @@ impl Packer {
         self.tiles.clear();
         self.sources.clear();
         self.cells.clear();
+        self.most_tiles = 0;
     }
 
     /// Appends one tick, and moves the grids on.
@@ -121,15 +133,21 @@ impl Packer {
         let mut order: Vec<usize> = (0..grids.len()).filter(|g| grids[*g].awake > 0).collect();
         order.sort_by_key(|g| std::cmp::Reverse(grids[*g].stepping.substeps));
         let most = order.first().map_or(0, |g| grids[*g].stepping.substeps);
-        let first = self.tiles.len() as u32;
-        let cells = [self.cells.len() as u32, 0];
-        let substeps = vec![Substep::default(); most as usize];
-        let mut tick = Tick { first, tiles: [0; 4], cells, moved: false, substeps };
+        let mut tick = Tick {
+            first: self.tiles.len() as u32,
+            count: 0,
+            cells: [self.cells.len() as u32, 0],
+            moved: false,
+            medium: false,
+            substeps: vec![Substep::default(); most as usize],
+            grids: Vec::new(),
+        };
         if order.is_empty() {
             return tick;
         }
         let mut params = TickParams::default();
         self.placed.clear();
+        self.forced.clear();
         for (slot, g) in order.iter().enumerate() {
             let grid = &mut grids[*g];
             // The last tick of a grid stills it.
@@ -144,20 +162,26 @@ impl Packer {
         }
         tick.cells[1] = self.cells.len() as u32 - tick.cells[0];
         self.placed.sort_by_key(|(tile, _)| *tile);
-        for (kind, of) in KINDS.into_iter().enumerate() {
-            for (slot, g) in order.iter().enumerate() {
-                let grid = &grids[*g];
-                tick.tiles[kind] += self.pack_tiles(slot as u32, grid, of);
-                let own = grid.stepping.substeps as usize;
-                for (k, substep) in tick.substeps.iter_mut().take(own).enumerate() {
-                    substep.tiles[kind] = tick.tiles[kind];
-                    substep.last |= k + 1 == own;
-                }
+        self.forced.sort_unstable();
+        let mut lists = [false; KINDS as usize];
+        for (slot, g) in order.iter().enumerate() {
+            let grid = &grids[*g];
+            self.pack_tiles(slot as u32, grid, &mut lists);
+            tick.grids.push((GpuGridId(*g), grid.ticks));
+            let own = grid.stepping.substeps as usize;
+            for (k, substep) in tick.substeps.iter_mut().take(own).enumerate() {
+                substep.lists = lists;
+                substep.last |= k + 1 == own;
             }
         }
+        tick.count = self.tiles.len() as u32 - tick.first;
+        tick.medium = lists[2] || lists[3];
+        self.most_tiles = self.most_tiles.max(tick.count);
         for g in order {
             let grid = &mut grids[g];
             grid.parity = (grid.parity + grid.stepping.substeps) & 1;
+            grid.flip ^= 1;
+            grid.ticks += 1;
             grid.shift = [0; 2];
             grid.clear = false;
             grid.moving &= grid.awake > 0;
@@ -167,14 +191,9 @@ impl Packer {
         tick
     }
 
-    /// Lists the tiles of a kind. Returns how many there are.
-    fn pack_tiles(&mut self, slot: u32, grid: &Grid, kind: TileKind) -> u32 {
-        let before = self.tiles.len();
+    /// Lists a grid's tiles, and notes which lists of tiles to be stepped they are for.
+    fn pack_tiles(&mut self, slot: u32, grid: &Grid, lists: &mut [bool; KINDS as usize]) {
         let land = grid.land.as_ref().filter(|land| land.ground.cells.is_some());
-        if kind.mixed && land.is_none() {
-            return 0;
-        }
-        let of = if kind.mixed { Class::Mixed } else { Class::Plain };
         let (corner, thickness) = (grid.torus_corner(), grid.profile().thickness);
         let inner = |k: usize, tile: usize| {
             let cell = (tile * TILE + grid.torus[k] - corner[k] as usize) % grid.torus[k];
@@ -182,22 +201,28 @@ impl Packer {
         };
         for row in 0..grid.torus[1] / TILE {
             for column in 0..grid.torus[0] / TILE {
-                let wanted = (inner(0, column) && inner(1, row)) != kind.layer;
-                if wanted && land.map_or(Class::Plain, |land| land.class([column, row], grid.torus)) == of {
-                    self.pack_tile(slot, (column | row << 8) as u32, kind.mixed);
-                }
+                let layer = !(inner(0, column) && inner(1, row));
+                let class = land.map_or(Class::Plain, |land| land.class([column, row], grid.torus));
+                let list = usize::from(layer) + 2 * usize::from(class == Class::Mixed);
+                lists[list] |= class != Class::Solid;
+                let more = match class {
+                    Class::Plain => 0,
+                    Class::Mixed => MIXED_TILE,
+                    Class::Solid => SOLID,
+                };
+                self.pack_tile(slot, (column | row << 8) as u32, list as u32 | more);
             }
         }
-        (self.tiles.len() - before) as u32
     }
 
-    fn pack_tile(&mut self, slot: u32, place: u32, mixed: bool) {
+    fn pack_tile(&mut self, slot: u32, place: u32, flags: u32) {
         let first_source = self.sources.len() as u32;
         let start = self.placed.partition_point(|(tile, _)| *tile < (slot, place));
         let own = self.placed[start..].iter().take_while(|(tile, _)| *tile == (slot, place));
         self.sources.extend(own.map(|(_, source)| *source));
         let source_count = self.sources.len() as u32 - first_source;
-        self.tiles.push(GridTile { place: place | slot << 16, first_source, source_count, mixed: u32::from(mixed) });
+        let forced = if self.forced.binary_search(&(slot, place)).is_ok() { FORCED } else { 0 };
+        self.tiles.push(GridTile { place: place | slot << 16, first_source, source_count, flags: flags | forced });
     }
 
     /// Lists the grid's sources by tile, each tile's in the order they were added.
@@ -218,9 +243,13 @@ impl Packer {
                 world(range[k][0])..=world(range[k][1] - 1)
             });
             let on_torus = |k: usize, tile: i64| tile.rem_euclid((grid.torus[k] / TILE) as i64) as u32;
-            for row in tiles[1].clone() {
-                for column in tiles[0].clone() {
-                    self.placed.push(((slot, on_torus(0, column) | on_torus(1, row) << 8), source));
+            for row in tiles[1].start() - 1..=tiles[1].end() + 1 {
+                for column in tiles[0].start() - 1..=tiles[0].end() + 1 {
+                    let place = (slot, on_torus(0, column) | on_torus(1, row) << 8);
+                    self.forced.push(place);
+                    if tiles[0].contains(&column) && tiles[1].contains(&row) {
+                        self.placed.push((place, source));
+                    }
                 }
             }
         }
@@ -261,5 +290,7 @@ fn packed(grid: &Grid) -> GridParams {
         foam_splash: grid.law.splash,
         peak_z: profile.peak[1],
         aspect: grid.law.aspect,
+        flip: grid.flip,
+        pad: [0; 3],
     }
 }

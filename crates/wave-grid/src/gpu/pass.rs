@@ -12,8 +12,12 @@ pub(super) const DISPATCH_STRIDE: u32 = 256;
 #[derive(Debug)]
 pub(super) struct Passes {
     pub(super) state_layout: wgpu::BindGroupLayout,
+    /// Group 1 of the schedule, and of all others.
+    pub(super) schedule_layout: wgpu::BindGroupLayout,
+    pub(super) lists_layout: wgpu::BindGroupLayout,
     pub(super) draw_layout: wgpu::BindGroupLayout,
     medium: wgpu::ComputePipeline,
+    schedule: wgpu::ComputePipeline,
     /// For grids that stood, and for ones that may have moved; each without and with mixed tiles.
     prepare: [[wgpu::ComputePipeline; 2]; 2],
     /// Without and with cells of the layer, each without and with the last sub-step's work, each of plain tiles and of
@@ -21,8 +25,6 @@ pub(super) struct Passes {
     step: [[[wgpu::ComputePipeline; 2]; 2]; 2],
     /// Without and with grids that have walls.
     pub(super) draw: [wgpu::ComputePipeline; 2],
-    /// How the steps' threads share the tiles.
-    pub(super) shape: StepShape,
 }
 
 impl Passes {
@@ -31,16 +33,19 @@ impl Passes {
         let uniform = Slot::DynamicUniform { size: size_of::<GridDispatch>() };
         let params = Slot::DynamicUniform { size: size_of::<TickParams>() };
         let (read, write) = (Slot::Read, Slot::ReadWrite);
-        let state = [uniform, params, read, read, write, write, write, read];
+        let state = [uniform, params, write, write, write];
         let draws = Slot::Uniform { size: MAX_GRIDS * size_of::<GridDraw>() };
         let state_layout = group_layout(device, "grid state", compute, &state);
+        let lists_layout = group_layout(device, "grid lists", compute, &[read, read, read, read, write]);
+        let schedule_layout = group_layout(device, "grid schedule", compute, &[read, write, write, write]);
         let draw_layout = group_layout(device, "grid draw", compute, &[draws, read, write, read]);
-        let pipeline = |pass: &open_water_shaders::Pass, layout: &wgpu::BindGroupLayout, constants: &[(&str, f64)]| {
-            compute_pipeline(device, pass, pass.name, &[layout], constants)
-        };
+        let pipeline =
+            |pass: &open_water_shaders::Pass, layouts: &[&wgpu::BindGroupLayout], constants: &[(&str, f64)]| {
+                compute_pipeline(device, pass, pass.name, layouts, constants)
+            };
+        let listed = [&state_layout, &lists_layout];
         const BOTH: [f64; 2] = [0.0, 1.0];
-        let prepare =
-            |moved, medium| pipeline(&shader::PREPARE, &state_layout, &[("MOVED", moved), ("MEDIUM", medium)]);
+        let prepare = |moved, medium| pipeline(&shader::PREPARE, &listed, &[("MOVED", moved), ("MEDIUM", medium)]);
         let shape = match device.adapter_info().device_type {
             wgpu::DeviceType::Cpu => StepShape::SOFTWARE,
             _ => StepShape::GPU,
@@ -48,16 +53,22 @@ impl Passes {
         let [rows, threads] = [shape.rows, shape.threads].map(f64::from);
         let step = |layer, last, mixed| {
             let kind = [("LAYER", layer), ("LAST", last), ("MIXED", mixed), ("ROWS", rows), ("THREADS", threads)];
-            pipeline(&shader::STEP, &state_layout, &kind)
+            pipeline(&shader::STEP, &listed, &kind)
         };
         Self {
-            medium: pipeline(&shader::MEDIUM, &state_layout, &[]),
+            schedule: pipeline(
+                &shader::SCHEDULE,
+                &[&state_layout, &schedule_layout],
+                &[("TILES_PER_GROUP", f64::from(shape.tiles()))],
+            ),
+            medium: pipeline(&shader::MEDIUM, &listed, &[]),
             prepare: BOTH.map(|moved| BOTH.map(|medium| prepare(moved, medium))),
             step: BOTH.map(|layer| BOTH.map(|last| BOTH.map(|mixed| step(layer, last, mixed)))),
-            draw: BOTH.map(|medium| pipeline(&shader::DRAW, &draw_layout, &[("MEDIUM", medium)])),
+            draw: BOTH.map(|medium| pipeline(&shader::DRAW, &[&draw_layout], &[("MEDIUM", medium)])),
             state_layout,
             draw_layout,
-            shape,
+            schedule_layout,
+            lists_layout,
         }
     }
 
@@ -65,6 +76,7 @@ impl Passes {
     pub(super) fn of(&self, kind: Kind) -> &wgpu::ComputePipeline {
         match kind {
             Kind::Medium => &self.medium,
+            Kind::Schedule => &self.schedule,
             Kind::Prepare { moved, medium } => &self.prepare[usize::from(moved)][usize::from(medium)],
             Kind::Step { tiles, last } => {
                 let TileKind { layer, mixed } = tiles;
