@@ -28,11 +28,15 @@ pub(super) struct Grid {
     pub(super) flip: u32,
     /// Ticks queued so far.
     pub(super) ticks: u64,
+    /// First tick that felt the last source.
+    pub(super) disturbed: u64,
+    /// Tiles stepped in the last tick that the GPU has told of.
+    pub(super) active: Option<u32>,
     pub(super) shift: [i64; 2],
     pub(super) clear: bool,
     /// Sources for the next tick, and the corner of the window they were placed in.
     pub(super) sources: Vec<(Footprint, [i64; 2])>,
-    /// Ticks until it may sleep.
+    /// Ticks until it is stilled if nothing comes back; 0 asleep.
     pub(super) awake: u32,
     pub(super) dropped: u64,
     /// Its place is free for a grid of the same size.

@@ -1,10 +1,12 @@
 //! Grids homed on the GPU: stepped there, drawn there, never read back here.
 //!
-//! All grids share their state buffers and one list of tiles, so a tick costs one dispatch that prepares and two for each
-//! sub-step (tiles without and with cells of the layer), however many grids there are; where a medium is felt, one more
-//! that stores it and two more for each sub-step. A grid sleeps on the CPU's word alone: when nothing has disturbed it for
-//! longer than waves and foam last. Tiles of an awake grid are all stepped.
+//! All grids share their state buffers and one list of tiles, so a tick costs one dispatch that lists the busy tiles, one
+//! that prepares and two for each sub-step (tiles without and with cells of the layer), however many grids there are; where
+//! a medium is felt, one more that stores it and two more for each sub-step. All but the first are indirect: the last
+//! sub-step marks the tiles that hold waves, and the next tick steps these and their neighbours, as the CPU's grids do.
+//! How many they were comes back some ticks later; a grid sleeps once there was none and nothing has disturbed it since.
 
+mod activity;
 mod buffers;
 mod grid;
 mod land;
@@ -23,6 +25,7 @@ use crate::source::footprint::{Footprint, Shape, Site};
 use crate::window::{Move, Place};
 use crate::{GridDesc, GridError, Source, Window};
 
+use activity::Activity;
 use buffers::Buffers;
 use grid::Grid;
 use pack::{Kind, Packer};
@@ -51,6 +54,7 @@ pub struct GpuGrids {
     ticks: VecDeque<pack::Tick>,
     /// Scratch of sources.
     weights: [Vec<f32>; 2],
+    activity: Activity,
 }
 
 impl GpuGrids {
@@ -67,6 +71,7 @@ impl GpuGrids {
             packer: Packer::default(),
             ticks: VecDeque::new(),
             weights: Default::default(),
+            activity: Activity::new(device),
         }
     }
 
@@ -98,7 +103,10 @@ impl GpuGrids {
             base,
             parity: 0,
             flip: free.map_or(0, |at| self.grids[at].flip),
-            ticks: 0,
+            // What comes back of the earlier one is older than these.
+            ticks: free.map_or(0, |at| self.grids[at].ticks),
+            disturbed: free.map_or(0, |at| self.grids[at].ticks),
+            active: None,
             shift: [0; 2],
             // What an earlier grid left there.
             clear: free.is_some(),
@@ -188,6 +196,7 @@ impl GpuGrids {
         let corner = grid.place.window.corner;
         grid.sources.extend(parts.into_iter().flatten().map(|part| (part, corner)));
         grid.awake = grid.rest_ticks();
+        grid.disturbed = grid.ticks;
         true
     }
 
@@ -213,11 +222,12 @@ impl GpuGrids {
         self.buffers.reserve_state(device, encoder, u64::from(self.state_vectors()), felt);
     }
 
-    /// Encodes the queued ticks. Submit the encoder before encoding again.
+    /// Encodes the queued ticks, and takes what has come back of earlier ones. Submit the encoder before encoding again.
     pub fn encode(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) {
-        if self.ticks.is_empty() {
-            return;
-        }
+        self.activity.poll(device, &mut self.grids);
+        let Some(last) = self.ticks.back() else { return };
+        self.activity.expect(&last.grids);
+        let counts = (self.ticks.len() - 1) as u64 * u64::from(4 * shader::COUNT_WORDS);
         self.reserve(device, encoder);
         let groups = self.buffers.upload(device, queue, &self.passes, &mut self.packer, &self.ticks);
         let mut pass =
@@ -240,6 +250,8 @@ impl GpuGrids {
                 dispatch += 1;
             }
         }
+        drop(pass);
+        self.activity.encode(encoder, &groups.counts, counts);
     }
 
     /// Encodes the drawing of grids as of the last encoded tick: (height, foam) of cell (i, j) goes to element
@@ -283,6 +295,11 @@ impl GpuGrids {
     /// Whether a grid is calm and costs nothing.
     pub fn is_asleep(&self, id: GpuGridId) -> bool {
         self.grids[id.0].awake == 0
+    }
+
+    /// Tiles that a grid stepped in the last tick of which the GPU has told; `None` before the first.
+    pub fn active_tiles(&self, id: GpuGridId) -> Option<u32> {
+        self.grids[id.0].active
     }
 
     /// Sources of a grid dropped so far.

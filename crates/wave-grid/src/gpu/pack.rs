@@ -150,8 +150,8 @@ impl Packer {
         self.forced.clear();
         for (slot, g) in order.iter().enumerate() {
             let grid = &mut grids[*g];
-            // The last tick of a grid stills it.
-            grid.awake -= 1;
+            // The last tick of a grid stills it, unless the GPU's own word has ever come back.
+            grid.awake -= u32::from(grid.awake > 1 || grid.active.is_none());
             grid.clear |= grid.awake == 0;
             params[slot] = packed(grid);
             tick.moved |= params[slot].moved != STOOD;
