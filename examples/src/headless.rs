@@ -68,6 +68,7 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Resu
         let picture = match (&mut target, &pick) {
             (Target::Gpu { painter, capture }, Pick::Gpu(gpu)) => {
                 let camera = rig.look(&scene, size, FRAME);
+                scene.seen(&camera);
                 let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
                 let plan = painter.record(gpu, &mut scene, &camera, &capture.view, &mut encoder);
                 log.plan = plan.to_string();

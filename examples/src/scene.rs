@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec2, Vec3};
 use open_water::{OpenWater, OpenWaterDesc, Pose, Tick};
-use water_view::{DryHull, MeshView, WaterLook};
+use water_view::{Camera, DryHull, MeshView, WaterLook};
 
 use crate::SceneError;
 use crate::options::{Options, Setup};
@@ -111,6 +111,9 @@ pub trait Scene: Sized + 'static {
     fn choose(&mut self, _number: u32) -> Result<(), SceneError> {
         Ok(())
     }
+
+    /// A picture is about to be drawn through this camera: the place to tell the water where the game looks.
+    fn seen(&mut self, _camera: &Camera) {}
 
     /// Runs one tick.
     ///

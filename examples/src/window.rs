@@ -161,6 +161,7 @@ impl<S: Scene> Live<S> {
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let size = self.painter.size();
         let camera = rig.look(&self.scene, size, dt.min(0.1));
+        self.scene.seen(&camera);
         let plan = self.painter.record(&self.gpu, &mut self.scene, &camera, &view, &mut encoder);
         self.plan = plan.to_string();
         if !input.hidden {

@@ -3,6 +3,7 @@
 mod body_float;
 mod energy;
 mod facade;
+mod facade_grids;
 mod grid_border;
 mod grid_medium;
 mod grid_phase;
@@ -64,4 +65,6 @@ pub const CASES: &[Case] = &[
     energy::ENERGY,
     facade::EMPTY,
     facade::TICK,
+    facade_grids::HANDOVER,
+    facade_grids::WAKES,
 ];
