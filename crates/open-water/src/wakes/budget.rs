@@ -19,7 +19,7 @@ const FAST: f32 = 0.4;
 /// Seconds over which a body's way is averaged: bobbing is none.
 const AVERAGE: f32 = 2.0;
 /// Grids made in one decision: each takes a moment.
-const AT_ONCE: usize = 2;
+const AT_ONCE: usize = 4;
 
 /// A body that asks for a grid.
 struct Asking {
