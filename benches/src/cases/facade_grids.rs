@@ -213,7 +213,6 @@ fn wakes(context: &Context) -> Result<Vec<Row>, CaseError> {
                 .param("boats_with_grid", boats)
                 .param("budget_grids", budget)
         };
-        rows.push(row(format!("{count} boats, a fine grid each"), full.with(), 32).time("a tick", &timing));
         for budget in [1, 2, 4, 8] {
             let mut fleet = Fleet::new(count, desc(budget, 50.0))?;
             for _ in 0..ticks {
@@ -232,6 +231,7 @@ fn wakes(context: &Context) -> Result<Vec<Row>, CaseError> {
                     .baseline("a tick with a fine grid for each boat", &timing),
             );
         }
+        rows.push(row(format!("{count} boats, a fine grid each"), full.with(), 32).time("a tick", &timing));
     }
     Ok(rows)
 }
