@@ -4,6 +4,8 @@ use crate::GridError;
 
 /// Most sub-steps of a tick. A wave must not cross a tile within one tick.
 pub const MAX_SUBSTEPS: u32 = 16;
+/// Most cells along one side of a grid.
+pub(crate) const MOST_CELLS: usize = 4096;
 /// Cells along one side of a tile.
 pub const TILE: usize = open_water_shaders::grid::TILE as usize;
 
@@ -121,7 +123,7 @@ impl GridDesc {
     /// [`GridError::InvalidValue`] for a field out of range, [`GridError::Unstable`] when no allowed sub-step is short enough.
     pub fn stepping(&self) -> Result<Stepping, GridError> {
         for (field, n) in [("cells[0]", self.cells[0]), ("cells[1]", self.cells[1])] {
-            within(field, f64::from(n), 48.0, 4096.0, "48 to 4096 cells")?;
+            within(field, f64::from(n), 48.0, MOST_CELLS as f64, "48 to 4096 cells")?;
         }
         for (field, h) in [("cell_size[0]", self.cell_size[0]), ("cell_size[1]", self.cell_size[1])] {
             within(field, f64::from(h), 0.001, 1000.0, "0.001 to 1000 m")?;

@@ -1,5 +1,6 @@
 //! A grid of interactive waves homed on the CPU.
 
+use fearless_simd::Level;
 use glam::{DVec2, Vec2};
 
 use crate::border::{Axis, Profile};
@@ -9,7 +10,7 @@ use crate::cpu::kernels::Coefficients;
 use crate::cpu::step::Setting;
 use crate::cpu::tiles::{Mode, Tiles};
 use crate::feed::{Feed, Incident};
-use crate::ground::{Cells, Ground};
+use crate::ground::{Cells, Ground, REACH};
 use crate::window::{Move, Place};
 use crate::{GridDesc, GridError, Stepping, cpu, state::State};
 
@@ -38,11 +39,15 @@ pub struct WaveGrid {
     pub(crate) ground: Option<Ground>,
     pub(crate) feed: Option<Feed>,
     coefficients: Coefficients,
+    /// The machine's vector units.
+    pub(crate) level: Level,
+    /// Largest |z| of each tile after a sub-step.
+    tops: Vec<f32>,
     law: FoamLaw,
     profile: Profile,
     axes: [Axis; 2],
     fade: [Vec<f32>; 2],
-    /// `previous` already holds the end of the last tick.
+    /// What is drawn as the tick before is what stands now: since the last tick a source was added or nothing moves.
     pub(crate) captured: bool,
     pub(crate) skipping: bool,
     pub(crate) dropped: u64,
@@ -60,7 +65,6 @@ impl WaveGrid {
     pub fn new(desc: GridDesc) -> Result<Self, GridError> {
         let stepping = desc.stepping()?;
         let [nx, nz] = desc.cells.map(|n| n as usize);
-        let (straight, beside) = desc.scheme.weights();
         let place = Place::new(&desc);
         let profile = Profile::new(desc.pml_width, stepping.a, false);
         let mut grid = Self {
@@ -70,11 +74,9 @@ impl WaveGrid {
             tiles: Tiles::new([nx, nz], place.window.tile_offset()),
             ground: None,
             feed: None,
-            coefficients: Coefficients {
-                straight: stepping.a.map(|a| (a * straight) as f32),
-                beside: stepping.a.map(|a| (a * beside) as f32),
-                damping: (0.5 * f64::from(desc.damping) * stepping.dt) as f32,
-            },
+            coefficients: Coefficients::new(&desc, &stepping),
+            level: Level::new(),
+            tops: Vec::new(),
             law: FoamLaw::new(&desc, &stepping),
             profile,
             axes: [Axis::new(&profile, 0, nx), Axis::new(&profile, 1, nz)],
@@ -158,10 +160,35 @@ impl WaveGrid {
         self.profile.thickness + 1
     }
 
+    /// From now on what stands is drawn as the tick before.
     pub(crate) fn capture(&mut self) {
         if !self.captured {
-            self.state.previous.copy_from_slice(&self.state.z);
+            self.tiles.forget_kept();
             self.captured = true;
+        }
+    }
+
+    /// Keeps the heights of the tiles that a source changes, as drawn for the tick before.
+    fn keep_around(&mut self, [x, z]: [[usize; 2]; 2]) {
+        // Walls within reach of a cubic kernel show the water beside them.
+        let by = if self.cells().is_some() { REACH } else { 0 };
+        let tiles = |axis: usize, [first, end]: [usize; 2]| {
+            let last = (end - 1 + by).min(self.tiles.cells[axis] - 1);
+            self.tiles.of(axis, first.saturating_sub(by))..=self.tiles.of(axis, last)
+        };
+        let (columns, rows) = (tiles(0, x), tiles(1, z));
+        for tz in rows {
+            for tx in columns.clone() {
+                self.keep(tx, tz);
+            }
+        }
+    }
+
+    fn keep(&mut self, tx: usize, tz: usize) {
+        let tile = &mut self.tiles.tiles[tz * self.tiles.count[0] + tx];
+        if !tile.kept {
+            tile.kept = true;
+            self.state.keep_cells(self.tiles.span(0, tx), self.tiles.span(1, tz));
         }
     }
 
@@ -194,6 +221,7 @@ impl WaveGrid {
         for tz in 0..self.tiles.count[1] {
             for tx in 0..self.tiles.count[0] {
                 if self.tiles.row(tz)[tx].mode == Mode::Ending {
+                    self.keep(tx, tz);
                     self.state.clear_cells(self.tiles.span(0, tx), self.tiles.span(1, tz));
                     self.captured = false;
                 }
@@ -206,15 +234,24 @@ impl WaveGrid {
         if self.carrier.is_none() && cells.is_some_and(Cells::drifts) {
             self.carrier = Some(Carrier::new([self.state.nx, self.state.nz], self.profile.thickness));
         }
-        let setting = Setting {
-            tiles: &self.tiles,
-            axes: &self.axes,
-            thickness: self.profile.thickness,
-            coefficients: self.coefficients,
-            cells,
-        };
+        self.tops.resize(self.tiles.tiles.len(), 0.0);
         for substep in 0..self.stepping.substeps {
-            cpu::step::step(&mut self.state, &setting);
+            // After a tick of one sub-step the older state is that of the tick before.
+            let keep = substep == 0 && self.stepping.substeps > 1;
+            let setting = Setting {
+                level: self.level,
+                tiles: &self.tiles,
+                axes: &self.axes,
+                thickness: self.profile.thickness,
+                coefficients: self.coefficients,
+                cells,
+                keep,
+            };
+            cpu::step::step(&mut self.state, &mut self.tops, &setting);
+            self.tiles.note(&self.tops);
+            if keep {
+                self.tiles.note_kept();
+            }
             if let Some((feed, incident)) = &mut fed {
                 if substep > 0 {
                     feed.ask(incident, substep);
@@ -227,6 +264,10 @@ impl WaveGrid {
         }
         if let Some(cells) = cells {
             cpu::ghosts::fill([&mut self.state.z, &mut self.state.old], &self.tiles, cells);
+        }
+        if fed.is_some() {
+            // What was fed is not in the tops.
+            cpu::foam::measure(&self.state, &mut self.tiles);
         }
         let cells = self.ground.as_ref().and_then(|ground| ground.cells.as_ref());
         cpu::foam::settle(&mut self.state, &mut self.tiles, cells, self.law);
@@ -254,6 +295,7 @@ impl WaveGrid {
     /// way from the tick before to the last one. Cells that `out` is too short for are left out.
     pub fn draw(&self, alpha: f32, out: &mut [[f32; 2]]) {
         let alpha = if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) };
-        cpu::draw::draw(&self.state, &self.fade, alpha, out);
+        let before = if self.captured { &self.state.z } else { &self.state.old };
+        cpu::draw::draw(&self.state, &self.tiles, before, &self.fade, alpha, out);
     }
 }

@@ -11,9 +11,9 @@ use std::ops::Range;
 use glam::{DVec2, Vec2};
 
 use crate::cpu::current::AT_WALLS;
-use crate::cpu::shift::shift_array;
 use crate::cpu::tiles::{Class, Tiles};
 use crate::desc::TILE;
+use crate::field::Field;
 use crate::medium::{CellLaw, Coefficient, DEEP_WALL, MOST_DRIFT, NEAR_WALL, SharedMedium};
 
 /// Cells around a wall cell in which water makes it a near one: as far as a cubic kernel reads.
@@ -25,18 +25,18 @@ pub(crate) struct Cells {
     pub(crate) nx: usize,
     pub(crate) nz: usize,
     /// (c dt / h)^2 along x.
-    pub(crate) a: Vec<f32>,
+    pub(crate) a: Field,
     /// a along z over a along x.
     aspect: f32,
-    pub(crate) r: Vec<f32>,
+    pub(crate) r: Field,
     /// On the faces before each cell along x and z.
-    pub(crate) faces: [Vec<f32>; 2],
+    pub(crate) faces: [Field; 2],
     /// Likewise, weighted for the face's own jump.
-    pub(crate) own: [Vec<f32>; 2],
+    pub(crate) own: [Field; 2],
     /// Weight of a face's own jump and of the two beside it.
     pub(crate) weights: [f32; 2],
     /// Cells that the current along x and z moves in a sub-step; empty while there is none.
-    pub(crate) drift: [Vec<f32>; 2],
+    pub(crate) drift: [Field; 2],
 }
 
 /// What a grid knows of the medium.
@@ -87,7 +87,7 @@ impl Ground {
             let Cells { a, r, faces: [x, z], own: [own_x, own_z], drift: [drift_x, drift_z], .. } = cells;
             for array in [a, r, x, z, own_x, own_z, drift_x, drift_z] {
                 if !array.is_empty() {
-                    shift_array(array, nx, nz, shift);
+                    array.shift(shift);
                 }
             }
         } else if self.allocate(tiles) {
@@ -124,7 +124,7 @@ impl Ground {
         }
         let [nx, nz] = tiles.cells;
         let Coefficient { a, r, .. } = self.law.plain();
-        let all = |v: f32| vec![v; nx * nz];
+        let all = |v: f32| Field::new(nx, nz, v, 0);
         let (weights, aspect) = (self.law.weights, self.law.aspect);
         let faces = [a, a * aspect];
         let own = faces.map(|face| all(face * weights[0]));
@@ -191,7 +191,7 @@ impl Cells {
             if drift == Vec2::ZERO {
                 return;
             }
-            self.drift = [vec![0.0; self.a.len()], vec![0.0; self.a.len()]];
+            self.drift = [0, 1].map(|_| Field::new(self.nx, self.nz, 0.0, 0));
         }
         (self.drift[0][at], self.drift[1][at]) = drift.into();
     }

@@ -30,6 +30,7 @@ mod desc;
 mod dispersion;
 mod error;
 mod feed;
+mod field;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod grid;

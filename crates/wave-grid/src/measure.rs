@@ -59,7 +59,7 @@ impl WaveGrid {
             eat(corner as u64);
         }
         for array in [&s.z, &s.old, &s.foam, &s.phi[0], &s.phi[1]] {
-            for v in array {
+            for v in array.iter() {
                 // -0 and 0 are the same water.
                 eat(u64::from((v + 0.0).to_bits()));
             }

@@ -1,5 +1,6 @@
 //! The arrays of a grid, row-major, x fastest.
 
+use crate::field::Field;
 use crate::ground::Cells;
 
 /// Fields of a window of `nx * nz` cells.
@@ -8,36 +9,36 @@ pub(crate) struct State {
     pub(crate) nx: usize,
     pub(crate) nz: usize,
     /// Height now, metres.
-    pub(crate) z: Vec<f32>,
+    pub(crate) z: Field,
     /// Height one sub-step ago; overwritten in place by the next one.
-    pub(crate) old: Vec<f32>,
-    /// Height at the end of the tick before, for drawing between ticks.
-    pub(crate) previous: Vec<f32>,
+    pub(crate) old: Field,
+    /// Height at the end of the tick before, for drawing between ticks; only where a tile has kept it.
+    pub(crate) previous: Field,
     /// Foam, 0 to 1.
-    pub(crate) foam: Vec<f32>,
+    pub(crate) foam: Field,
     /// phi on the edges before each cell along x and z, half a sub-step ago; zero outside the layer.
-    pub(crate) phi: [Vec<f32>; 2],
+    pub(crate) phi: [Field; 2],
     /// Where the next phi is written.
-    pub(crate) phi_next: [Vec<f32>; 2],
+    pub(crate) phi_next: [Field; 2],
 }
 
 impl State {
     pub(crate) fn new(nx: usize, nz: usize) -> Self {
-        let zero = || vec![0.0; nx * nz];
+        let zero = |stagger| Field::new(nx, nz, 0.0, stagger);
         Self {
             nx,
             nz,
-            z: zero(),
-            old: zero(),
-            previous: zero(),
-            foam: zero(),
-            phi: [zero(), zero()],
-            phi_next: [zero(), zero()],
+            z: zero(0),
+            old: zero(1),
+            previous: zero(2),
+            foam: zero(3),
+            phi: [zero(2), zero(3)],
+            phi_next: [zero(2), zero(3)],
         }
     }
 
     /// Every array that moves with the water.
-    pub(crate) fn arrays(&mut self) -> [&mut Vec<f32>; 8] {
+    pub(crate) fn arrays(&mut self) -> [&mut Field; 8] {
         let Self { nx: _, nz: _, z, old, previous, foam, phi: [x, y], phi_next: [next_x, next_y] } = self;
         [z, old, previous, foam, x, y, next_x, next_y]
     }
@@ -59,6 +60,14 @@ impl State {
         }
     }
 
+    /// Copies the heights of a rectangle of cells to `previous`.
+    pub(crate) fn keep_cells(&mut self, x: std::ops::Range<usize>, z: std::ops::Range<usize>) {
+        for j in z {
+            let row = j * self.nx + x.start..j * self.nx + x.end;
+            self.previous[row.clone()].copy_from_slice(&self.z[row]);
+        }
+    }
+
     /// Zeroes walls, held water, and the memory of faces that nothing flows through.
     pub(crate) fn dry_walls(&mut self, cells: &Cells) {
         let Self { nx: _, nz: _, z, old, previous, foam, phi, phi_next } = self;
@@ -71,7 +80,7 @@ impl State {
         }
         for (k, faces) in cells.faces.iter().enumerate() {
             for phi in [&mut phi[k], &mut phi_next[k]] {
-                for (phi, face) in phi.iter_mut().zip(faces) {
+                for (phi, face) in phi.iter_mut().zip(faces.iter()) {
                     *phi = if *face == 0.0 { 0.0 } else { *phi };
                 }
             }

@@ -6,6 +6,7 @@
 //! where it is higher than [`SHALLOW`] of the depth (taken from c^2 = g depth), and at walls where it rises or falls
 //! faster than [`SPLASH`]. Only for looks.
 
+use crate::cpu::kernels::note;
 use crate::cpu::tiles::{Class, Mode, Tiles};
 use crate::desc::TILE;
 use crate::ground::Cells;
@@ -73,15 +74,17 @@ pub(crate) fn measure(state: &State, tiles: &mut Tiles) {
         for tx in 0..count_x {
             let at = tz * count_x + tx;
             if tiles.tiles[at].mode == Mode::Active {
-                tiles.tiles[at].height = tile_height(state, tiles.span(0, tx), tiles.span(1, tz));
+                let (x, z) = (tiles.span(0, tx), tiles.span(1, tz));
+                let [top, before] = [&state.z, &state.old].map(|array| largest(array, state.nx, x.clone(), z.clone()));
+                let tile = &mut tiles.tiles[at];
+                (tile.top, tile.height) = (top, top.max(before));
             }
         }
     }
 }
 
-/// Measures the active tiles and updates their foam from z as the last sub-step found it.
+/// Updates the foam of the active tiles from z as the last sub-step found it.
 pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, cells: Option<&Cells>, law: FoamLaw) {
-    measure(state, tiles);
     let [count_x, count_z] = tiles.count;
     for tz in 0..count_z {
         for tx in 0..count_x {
@@ -111,15 +114,11 @@ pub(crate) fn settle(state: &mut State, tiles: &mut Tiles, cells: Option<&Cells>
 
 type Span = std::ops::Range<usize>;
 
-fn tile_height(state: &State, x: Span, z: Span) -> f32 {
+fn largest(array: &[f32], nx: usize, x: Span, z: Span) -> f32 {
     let mut most = [0.0f32; TILE];
     for j in z {
-        let row = j * state.nx + x.start..j * state.nx + x.end;
-        for array in [&state.z, &state.old] {
-            for (m, v) in most.iter_mut().zip(&array[row.clone()]) {
-                let v = v.abs();
-                *m = if v > *m { v } else { *m };
-            }
+        for (m, v) in most.iter_mut().zip(&array[j * nx + x.start..j * nx + x.end]) {
+            note(m, *v);
         }
     }
     most.into_iter().fold(0.0, f32::max)

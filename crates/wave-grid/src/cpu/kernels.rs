@@ -1,9 +1,12 @@
-//! The inner loops: one row of cells, in place over the older state.
+//! The coefficients of the scheme, and the inner loop of the border layer.
 //!
-//! Written as plain slices of equal length so that they compile to vector code without bounds checks. No fused
-//! multiply-add, so that every instruction set gives the same bits.
+//! Inner loops are inlined where the machine's vector units are known (see [`crate::cpu::step`]). Each cell does the same
+//! operations in the same order on any of them, without fused multiply-add, so that the bits are the same.
 
 use open_water_shaders::grid::TINY;
+
+use crate::cpu::plain::PlainLaw;
+use crate::{GridDesc, Stepping};
 
 /// Coefficients of the scheme, dt folded in.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +17,20 @@ pub(crate) struct Coefficients {
     pub(crate) beside: [f32; 2],
     /// s = sigma dt / 2.
     pub(crate) damping: f32,
+    /// Where c is uniform.
+    pub(crate) plain: PlainLaw,
+}
+
+impl Coefficients {
+    pub(crate) fn new(desc: &GridDesc, stepping: &Stepping) -> Self {
+        let (straight, beside) = desc.scheme.weights();
+        Self {
+            straight: stepping.a.map(|a| (a * straight) as f32),
+            beside: stepping.a.map(|a| (a * beside) as f32),
+            damping: (0.5 * f64::from(desc.damping) * stepping.dt) as f32,
+            plain: PlainLaw::new(desc, stepping),
+        }
+    }
 }
 
 /// Zero instead of what would become a denormal.
@@ -22,38 +39,11 @@ pub(crate) fn flush(x: f32) -> f32 {
     if x.abs() < TINY { 0.0 } else { x }
 }
 
-/// Interior, where c is uniform: the face fluxes of a cell collected,
-/// z+ = z + [ (1-s)(z - z_old) + sum over 8 neighbours w (z_nb - z) ] / (1+s).
-///
-/// `old` has n cells; the three rows have n + 2, from one cell before to one after.
-#[inline(never)]
-pub(crate) fn interior_row(old: &mut [f32], below: &[f32], row: &[f32], above: &[f32], k: Coefficients) {
-    let n = old.len();
-    let scale = 1.0 / (1.0 + k.damping);
-    let keep = (1.0 - k.damping) * scale;
-    let edge = [0, 1].map(|axis| scale * (k.straight[axis] - 2.0 * k.beside[1 - axis]));
-    // Square cells save a multiplication.
-    let cross = |x: f32, z: f32| if edge[0] == edge[1] { edge[0] * (x + z) } else { edge[0] * x + edge[1] * z };
-    if k.beside == [0.0; 2] {
-        let (west, centre, east) = (&row[..n], &row[1..n + 1], &row[2..n + 2]);
-        let (south, north) = (&below[1..n + 1], &above[1..n + 1]);
-        for i in 0..n {
-            let z = centre[i];
-            let cross = cross((west[i] - z) + (east[i] - z), (south[i] - z) + (north[i] - z));
-            old[i] = flush(z + (keep * (z - old[i]) + cross));
-        }
-        return;
-    }
-    let corner = scale * (k.beside[0] + k.beside[1]);
-    let (west, centre, east) = (&row[..n], &row[1..n + 1], &row[2..n + 2]);
-    let (south_west, south, south_east) = (&below[..n], &below[1..n + 1], &below[2..n + 2]);
-    let (north_west, north, north_east) = (&above[..n], &above[1..n + 1], &above[2..n + 2]);
-    for i in 0..n {
-        let z = centre[i];
-        let cross = cross((west[i] - z) + (east[i] - z), (south[i] - z) + (north[i] - z));
-        let diagonal = ((south_west[i] - z) + (south_east[i] - z)) + ((north_west[i] - z) + (north_east[i] - z));
-        old[i] = flush(z + (keep * (z - old[i]) + (cross + corner * diagonal)));
-    }
+/// Notes the size of `x`. A NaN is not noted.
+#[inline(always)]
+pub(crate) fn note(most: &mut f32, x: f32) {
+    let size = x.abs();
+    *most = if size > *most { size } else { *most };
 }
 
 /// What a row of the border layer reads. Rows have n + 2 cells, edge data along x n + 1.
@@ -78,14 +68,22 @@ pub(crate) struct LayerRow<'a> {
     pub(crate) edge_z: [[f32; 3]; 2],
 }
 
-/// Border layer: phi is advanced on the four edges of each cell, its own two are stored (`phi_x`, `phi_z`, n each).
+/// Border layer: phi is advanced on the four edges of each cell, its own two are stored (`phi_x`, `phi_z`), and the largest
+/// |z| of each column in `most`, n each.
 ///
 /// z+ = z + R R/(1+s) [ (1-s)(1 - Zi/2)(1 - Zj/2)(z - z_old) - Zi Zj z + div(a grad z) + div(phibar) ], at s = 0
 /// R R [ 2(1 - Zi Zj/4) z + div(a grad z) + div(phibar) ] - A A z_old arranged for small changes.
-#[inline(never)]
-pub(crate) fn layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], r: &LayerRow, k: Coefficients) {
+#[inline(always)]
+pub(crate) fn layer_row(
+    old: &mut [f32],
+    phi_x: &mut [f32],
+    phi_z: &mut [f32],
+    most: &mut [f32],
+    r: &LayerRow,
+    k: &Coefficients,
+) {
     let n = old.len();
-    let (phi_x, phi_z) = (&mut phi_x[..n], &mut phi_z[..n]);
+    let (phi_x, phi_z, most) = (&mut phi_x[..n], &mut phi_z[..n], &mut most[..n]);
     let (west, centre, east) = (&r.row[..n], &r.row[1..n + 1], &r.row[2..n + 2]);
     let (south_west, south, south_east) = (&r.below[..n], &r.below[1..n + 1], &r.below[2..n + 2]);
     let (north_west, north, north_east) = (&r.above[..n], &r.above[1..n + 1], &r.above[2..n + 2]);
@@ -115,7 +113,9 @@ pub(crate) fn layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], r
         let plain = (flux_e - flux_w) + (flux_n - flux_s);
         let layer = ((phi_e + px1[i]) - (phi_w + px0[i])) + ((phi_n + pz1[i]) - (phi_s + pz0[i]));
         let still = rate * (1.0 - 0.5 * node[i]) * (z - old[i]) - node[i] * zj * z;
-        old[i] = flush(z + scale * node_gain[i] * (still + (plain + 0.5 * layer)));
+        let next = flush(z + scale * node_gain[i] * (still + (plain + 0.5 * layer)));
+        old[i] = next;
+        note(&mut most[i], next);
         phi_x[i] = flush(phi_w);
         phi_z[i] = flush(phi_s);
     }

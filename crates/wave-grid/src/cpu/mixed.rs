@@ -4,7 +4,7 @@
 //! face, W = w0 A or more beside a wall. The weights are symmetric, so the scheme has an energy; with the mean instead of `min` it blows up at walls.
 //! A cell with r = 0 keeps z+ = z_old: held water stays zero, and walls are filled in at the end of the tick.
 
-use crate::cpu::kernels::{LayerRow, flush};
+use crate::cpu::kernels::{LayerRow, flush, note};
 
 /// What a row of n cells reads of the medium.
 pub(crate) struct GroundRow<'a> {
@@ -63,24 +63,34 @@ impl GroundRow<'_> {
 }
 
 /// Away from the layer: z+ = z + (2r - 1)(z - z_old) + r div F.
-#[inline(never)]
-pub(crate) fn mixed_row(old: &mut [f32], z: [&[f32]; 3], g: &GroundRow) {
+#[inline(always)]
+pub(crate) fn mixed_row(old: &mut [f32], most: &mut [f32], z: [&[f32]; 3], g: &GroundRow) {
     let n = old.len();
+    let most = &mut most[..n];
     let z = z.map(|row| &row[..n + 2]);
     let g = g.of(n);
     for i in 0..n {
         let [west, east, south, north] = fluxes(z, &g, i);
         let c = z[1][i + 1];
         let r = g.r[i];
-        old[i] = flush(c + ((2.0 * r - 1.0) * (c - old[i]) + r * ((east - west) + (north - south))));
+        let next = flush(c + ((2.0 * r - 1.0) * (c - old[i]) + r * ((east - west) + (north - south))));
+        old[i] = next;
+        note(&mut most[i], next);
     }
 }
 
 /// In the layer: as [`crate::cpu::kernels::layer_row`] with these fluxes.
-#[inline(never)]
-pub(crate) fn mixed_layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f32], l: &LayerRow, g: &GroundRow) {
+#[inline(always)]
+pub(crate) fn mixed_layer_row(
+    old: &mut [f32],
+    phi_x: &mut [f32],
+    phi_z: &mut [f32],
+    most: &mut [f32],
+    l: &LayerRow,
+    g: &GroundRow,
+) {
     let n = old.len();
-    let (phi_x, phi_z) = (&mut phi_x[..n], &mut phi_z[..n]);
+    let (phi_x, phi_z, most) = (&mut phi_x[..n], &mut phi_z[..n], &mut most[..n]);
     let z = [l.below, l.row, l.above].map(|row| &row[..n + 2]);
     let g = g.of(n);
     let (px0, px1) = (&l.phi_x[..n], &l.phi_x[1..n + 1]);
@@ -103,7 +113,9 @@ pub(crate) fn mixed_layer_row(old: &mut [f32], phi_x: &mut [f32], phi_z: &mut [f
         let r = g.r[i];
         let rate = (2.0 * r - 1.0) * (1.0 - 0.5 * zj) * (1.0 - 0.5 * node[i]);
         let change = rate * (c - old[i]) + r * ((plain + 0.5 * layer) - node[i] * zj * c);
-        old[i] = flush(c + gain_z * node_gain[i] * change);
+        let next = flush(c + gain_z * node_gain[i] * change);
+        old[i] = next;
+        note(&mut most[i], next);
         phi_x[i] = flush(phi_w);
         phi_z[i] = flush(phi_s);
     }

@@ -1,11 +1,13 @@
 //! The grid's passes on the CPU, the twins of the WGSL passes of the same names.
 
+pub(crate) mod band;
 pub(crate) mod current;
 pub(crate) mod draw;
 pub(crate) mod foam;
 pub(crate) mod ghosts;
 pub(crate) mod kernels;
 pub(crate) mod mixed;
+pub(crate) mod plain;
 pub(crate) mod sample;
 pub(crate) mod shift;
 pub(crate) mod step;

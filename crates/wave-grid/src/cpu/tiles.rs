@@ -8,6 +8,9 @@ use crate::desc::TILE;
 
 pub use open_water_shaders::grid::{QUIET_FOAM, QUIET_HEIGHT};
 
+/// See [`Tile::faint`], metres.
+const FAINT: f32 = 1e-10;
+
 /// What a tile does in this tick.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) enum Mode {
@@ -37,6 +40,8 @@ pub(crate) enum Class {
 pub(crate) struct Tile {
     /// Bound of |z| and |z_old|, metres.
     pub(crate) height: f32,
+    /// Bound of |z|, metres.
+    pub(crate) top: f32,
     /// Bound of the foam.
     pub(crate) foam: f32,
     pub(crate) mode: Mode,
@@ -45,9 +50,17 @@ pub(crate) struct Tile {
     pub(crate) walls: bool,
     /// It has a current.
     pub(crate) carried: bool,
+    /// `previous` holds its heights as drawn for the tick before; otherwise they are where [`crate::WaveGrid::draw`] says.
+    pub(crate) kept: bool,
 }
 
 impl Tile {
+    /// Whether its values may be small enough to become denormals: waves fall off by less than a factor of 30 a cell.
+    #[inline(always)]
+    pub(crate) fn faint(&self) -> bool {
+        self.top < FAINT
+    }
+
     fn busy(&self) -> bool {
         // What a source or a feed noted of a wall is never measured again.
         self.class != Class::Solid && (self.height > QUIET_HEIGHT || self.foam > QUIET_FOAM)
@@ -99,6 +112,7 @@ impl Tiles {
             for tx in self.of(0, range[0][0])..=self.of(0, range[0][1] - 1) {
                 let tile = &mut self.tiles[tz * self.count[0] + tx];
                 tile.height += height.abs();
+                tile.top += height.abs();
                 tile.foam += foam;
             }
         }
@@ -148,6 +162,28 @@ impl Tiles {
                 Class::Plain | Class::Mixed => Mode::Active,
             };
             self.active += usize::from(tile.mode == Mode::Active);
+        }
+    }
+
+    /// The tiles' kept heights are those of another tick.
+    pub(crate) fn forget_kept(&mut self) {
+        for tile in &mut self.tiles {
+            tile.kept = false;
+        }
+    }
+
+    /// A sub-step has kept the heights of the active tiles.
+    pub(crate) fn note_kept(&mut self) {
+        for tile in &mut self.tiles {
+            tile.kept |= tile.mode == Mode::Active;
+        }
+    }
+
+    /// Notes the largest |z| of each active tile after a sub-step.
+    pub(crate) fn note(&mut self, tops: &[f32]) {
+        for (tile, top) in self.tiles.iter_mut().zip(tops).filter(|(tile, _)| tile.mode == Mode::Active) {
+            tile.height = tile.top.max(*top);
+            tile.top = *top;
         }
     }
 

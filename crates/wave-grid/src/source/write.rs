@@ -33,6 +33,7 @@ impl WaveGrid {
             self.capture();
             for (part, weights) in parts.iter().zip(&weights) {
                 if let Some(footprint) = part {
+                    self.keep_around(footprint.range);
                     self.tiles.touch(footprint.range, footprint.height, footprint.foam);
                     self.write(footprint, weights);
                 }
