@@ -51,7 +51,7 @@ impl WaveGrid {
         self.captured = false;
         self.capture();
         self.tiles.activate_all();
-        cpu::foam::measure(&self.state, &mut self.tiles);
+        cpu::foam::measure(&self.state, &mut self.tiles, true);
         Ok(())
     }
 

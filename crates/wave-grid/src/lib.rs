@@ -41,6 +41,7 @@ mod resample;
 mod settings;
 mod source;
 mod state;
+mod tick;
 mod train;
 mod window;
 

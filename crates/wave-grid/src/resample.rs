@@ -74,12 +74,13 @@ impl WaveGrid {
         }
         let taps = [0, 1].map(|axis| Taps::new(self, from, axis));
         let width = from.state.nx;
-        let before = self.before(from);
+        let before = self.older(from);
+        let drawn = from.drawn_before();
         let mut across = Vec::new();
         for (field, out) in [
-            (&from.state.z, &mut self.state.z),
+            (&from.state.z[..], &mut self.state.z),
             (&before, &mut self.state.old),
-            (&from.state.previous, &mut self.state.previous),
+            (&drawn, &mut self.state.previous),
             (&from.state.foam, &mut self.state.foam),
         ] {
             read(field, width, &taps, &mut across, out);
@@ -94,16 +95,17 @@ impl WaveGrid {
         self.captured = from.captured;
         self.dry_walls();
         self.tiles.activate_all();
-        measure(&self.state, &mut self.tiles);
+        measure(&self.state, &mut self.tiles, true);
         self.tiles.note_foam(&self.state.foam);
+        self.tiles.note_kept(true);
     }
 
     /// The heights of `from` one of this grid's sub-steps ago: from its own two states and the acceleration between them.
-    fn before(&self, from: &WaveGrid) -> Vec<f32> {
+    fn older(&self, from: &WaveGrid) -> Vec<f32> {
         let (z, old) = (&from.state.z, &from.state.old);
         let share = self.stepping.dt / from.stepping.dt;
         if share == 1.0 {
-            return old.clone();
+            return old.to_vec();
         }
         // z(t - s) = z - s v + s^2 w/2 with z - old = dt v - dt^2 w/2 and dt^2 w = div(a grad z).
         let bend = (0.5 * (share * share - share)) as f32;

@@ -1,7 +1,5 @@
 //! What one thread of a sub-step writes: some rows of every array.
 
-use std::ops::Range;
-
 use crate::cpu::tiles::Tiles;
 
 /// Rows `first..` of what is written, those of the tiles `first_tile..`.
@@ -67,15 +65,13 @@ impl<'a> Band<'a> {
         &mut self.tops[(tz - self.first_tile) * tiles.count[0] + tx]
     }
 
-    /// Copies the heights of those of tiles `run` that have not kept theirs.
-    pub(crate) fn keep(&mut self, tz: usize, run: Range<usize>, z: &[f32], tiles: &Tiles) {
-        for tx in run.filter(|tx| !tiles.row(tz)[*tx].kept) {
-            let x = tiles.span(0, tx);
-            for j in tiles.span(1, tz) {
-                let at = (j - self.first) * self.nx;
-                let row = &z[j * self.nx..(j + 1) * self.nx];
-                self.previous[at + x.start..at + x.end].copy_from_slice(&row[x.clone()]);
-            }
+    /// Copies the heights of a tile.
+    pub(crate) fn keep(&mut self, [tx, tz]: [usize; 2], z: &[f32], tiles: &Tiles) {
+        let x = tiles.span(0, tx);
+        for j in tiles.span(1, tz) {
+            let at = (j - self.first) * self.nx;
+            let row = &z[j * self.nx..(j + 1) * self.nx];
+            self.previous[at + x.start..at + x.end].copy_from_slice(&row[x.clone()]);
         }
     }
 }

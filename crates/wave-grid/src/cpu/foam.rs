@@ -67,13 +67,13 @@ impl FoamLaw {
     }
 }
 
-/// Notes how high the waves of each active tile are.
-pub(crate) fn measure(state: &State, tiles: &mut Tiles) {
+/// Notes how high the waves of each active tile are, of all or of those with a current.
+pub(crate) fn measure(state: &State, tiles: &mut Tiles, all: bool) {
     let [count_x, count_z] = tiles.count;
     for tz in 0..count_z {
         for tx in 0..count_x {
             let at = tz * count_x + tx;
-            if tiles.tiles[at].mode == Mode::Active {
+            if tiles.tiles[at].mode == Mode::Active && (all || tiles.tiles[at].carried) {
                 let (x, z) = (tiles.span(0, tx), tiles.span(1, tz));
                 let [top, before] = [&state.z, &state.old].map(|array| largest(array, state.nx, x.clone(), z.clone()));
                 let tile = &mut tiles.tiles[at];

@@ -22,6 +22,15 @@ const PIECES: usize = 2;
 /// The strips of the layer on both sides are rounded up to whole vectors; where Z is zero, the layer is the interior.
 const STRIP: usize = 8;
 
+/// Which tiles keep their heights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Keep {
+    Nothing,
+    /// Those with a current.
+    Carried,
+    All,
+}
+
 /// What a sub-step takes besides the state.
 pub(crate) struct Setting<'a> {
     pub(crate) level: Level,
@@ -31,8 +40,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) coefficients: Coefficients,
     /// The medium where it varies.
     pub(crate) cells: Option<&'a Cells>,
-    /// Heights are copied to `previous` in active tiles that have not kept them yet.
-    pub(crate) keep: bool,
+    /// Active tiles whose heights are copied to `previous` if they have not kept them yet.
+    pub(crate) keep: Keep,
 }
 
 /// What all rows read.
@@ -89,8 +98,12 @@ fn step_band<S: Simd>(simd: S, mut band: Band, rows: Range<usize>, s: &Shared) {
             }
             let end = tx + tiles[tx..].iter().take_while(|t| alike(t, first)).count();
             let cells = all.span(0, tx).start..all.span(0, end - 1).end;
-            if s.by.keep {
-                band.keep(tz, tx..end, s.z, all);
+            if s.by.keep != Keep::Nothing {
+                for (tx, tile) in (tx..end).zip(&tiles[tx..]) {
+                    if !tile.kept && (s.by.keep == Keep::All || tile.carried) {
+                        band.keep([tx, tz], s.z, all);
+                    }
+                }
             }
             most[cells.clone()].fill(0.0);
             let ground = s.by.cells.filter(|_| first.class != Class::Plain);

@@ -172,10 +172,10 @@ impl Tiles {
         }
     }
 
-    /// A sub-step has kept the heights of the active tiles.
-    pub(crate) fn note_kept(&mut self) {
+    /// A sub-step has kept the heights of all active tiles or of those with a current.
+    pub(crate) fn note_kept(&mut self, all: bool) {
         for tile in &mut self.tiles {
-            tile.kept |= tile.mode == Mode::Active;
+            tile.kept |= tile.mode == Mode::Active && (all || tile.carried);
         }
     }
 
