@@ -106,7 +106,7 @@ impl Grid {
     ) -> Option<DVec2> {
         match self.desc.follow {
             Follow::Fixed(place) => Some(place),
-            Follow::Body(id) => body(id).map(|p| DVec2::new(p.x.into(), p.z.into())),
+            Follow::Body(id) => body(id).map(|p| DVec2::new(p.x.into(), p.z.into()) + self.trail),
             Follow::Point => self.point,
             Follow::View => look?.middle(level, self.room()),
         }

@@ -31,6 +31,8 @@ pub(crate) struct Grid {
     pub(crate) leaving: bool,
     /// The grid that it fades into meanwhile: both hold the same waves.
     pub(crate) into: Option<GridId>,
+    /// Where its middle stands from the body that it follows, metres.
+    pub(crate) trail: DVec2,
     /// The place it follows, with `Follow::Point`.
     pub(crate) point: Option<DVec2>,
     /// How the ambient sea comes in.
@@ -222,6 +224,7 @@ impl Grids {
             gain: 1.0,
             leaving: false,
             into: None,
+            trail: DVec2::ZERO,
             point: None,
             feeding: None,
         });

@@ -77,6 +77,11 @@ impl Homes {
         if jumped {
             *self = Self::default();
         }
+        // A home that fades into another hands over at once: that one holds the same waves.
+        if let Some(next) = self.now.and_then(|id| grids.get(id).ok()?.into) {
+            self.shares.push((next, HELD));
+            self.now = Some(next);
+        }
         let now = self.now.and_then(|id| grids.get(id).ok()).filter(|grid| body.is_in(grid, 0.0, 0.0));
         let best = self.best(grids, body, now);
         self.next = best.map(|grid| grid.id);
@@ -110,8 +115,10 @@ impl Homes {
     /// The grid that should become the home instead of `now`, if any.
     fn best<'a>(&self, grids: &'a Grids, body: Settler, now: Option<&Grid>) -> Option<&'a Grid> {
         let rank = |grid: &Grid| grid.rank(body.id);
-        let leaving = now.is_some_and(|grid| !body.is_in(grid, RISE, 0.0));
-        let others = grids.iter().filter(|grid| now.is_none_or(|now| now.id != grid.id) && body.disturbs(grid));
+        // One that follows it comes along.
+        let leaving = now.is_some_and(|grid| !grid.follows(body.id) && !body.is_in(grid, RISE, 0.0));
+        let other = |grid: &&Grid| now.is_none_or(|now| now.id != grid.id) && !grid.leaving && body.disturbs(grid);
+        let others = grids.iter().filter(other);
         let better = |grid: &&Grid| match now {
             // One that is no better is taken when the body is about to leave.
             Some(now) => (leaving && body.is_in(grid, RISE, MARGIN)) || rank(grid) < rank(now),

@@ -4,7 +4,8 @@
 //! stand on the same world multiples, it gives every cell of the source the same weight in all, so the volume is kept.
 
 use crate::WaveGrid;
-use crate::cpu::foam::measure;
+use crate::cpu::{foam::measure, ghosts};
+use crate::state::State;
 
 /// For one axis: of each new cell the first old cell that it reads, and their weights.
 struct Taps(Vec<(usize, Vec<f32>)>);
@@ -98,6 +99,10 @@ impl WaveGrid {
         measure(&self.state, &mut self.tiles, true);
         self.tiles.note_foam(&self.state.foam);
         self.tiles.note_kept(true);
+        if let Some(cells) = self.ground.as_ref().and_then(|ground| ground.cells.as_ref()) {
+            let State { z, old, previous, .. } = &mut self.state;
+            ghosts::fill([z, old, previous], &self.tiles, cells);
+        }
     }
 
     /// The heights of `from` one of this grid's sub-steps ago: from its own two states and the acceleration between them.

@@ -14,8 +14,10 @@ fn grid_height(index: u32, point: vec2<f32>) -> f32 {
     }
     let t = place.at - base;
     let at = vec2<u32>(base);
-    let low = mix(grid_texel(grid, at).x, grid_texel(grid, at + vec2<u32>(1u, 0u)).x, t.x);
-    let high = mix(grid_texel(grid, at + vec2<u32>(0u, 1u)).x, grid_texel(grid, at + 1u).x, t.x);
+    let columns = grid_line(grid, vec4<u32>(at.x, at.x + 1u, 0u, 0u), grid.cells.x);
+    let rows = grid_line(grid, vec4<u32>(at.y, at.y + 1u, 0u, 0u), grid.cells.y) * grid.cells.x + grid.base;
+    let low = mix(surface_grids[rows.x + columns.x].x, surface_grids[rows.x + columns.y].x, t.x);
+    let high = mix(surface_grids[rows.y + columns.x].x, surface_grids[rows.y + columns.y].x, t.x);
     return place.share * mix(low, high, t.y);
 }
 

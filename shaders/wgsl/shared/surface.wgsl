@@ -54,11 +54,9 @@ fn grid_holds(grid: SurfaceGrid, base: vec2<f32>, margin: f32) -> bool {
     return grid.tiled != 0u || (all(base >= vec2<f32>(margin)) && all(base <= vec2<f32>(grid.cells) - 2.0 - margin));
 }
 
-// (height, foam) of a cell, both faded; beyond the last a tiled grid begins again.
-fn grid_texel(grid: SurfaceGrid, cell: vec2<u32>) -> vec2<f32> {
-    let over = vec2<u32>(cell >= grid.cells);
-    let at = cell - over * (grid.cells - 2u);
-    return surface_grids[grid.base + at.y * grid.cells.x + at.x];
+// Columns or rows of a grid, `count` of them; beyond the last a tiled one begins again.
+fn grid_line(grid: SurfaceGrid, cells: vec4<u32>, count: u32) -> vec4<u32> {
+    return select(cells, cells - (count - 2u), vec4<bool>(grid.tiled != 0u) & (cells >= vec4<u32>(count)));
 }
 
 // Height, slope and foam of one grid at a world point: (height, dh/dx, dh/dz, foam). Zero outside its window.
@@ -76,10 +74,12 @@ fn grid_at(index: u32, point: vec2<f32>) -> vec4<f32> {
     let dx = cubic_slopes(t.x) / grid.cell_size.x;
     let dz = cubic_slopes(t.y) / grid.cell_size.y;
     let first = vec2<u32>(base) - 1u;
+    let columns = grid_line(grid, first.x + vec4<u32>(0u, 1u, 2u, 3u), grid.cells.x);
+    let rows = grid_line(grid, first.y + vec4<u32>(0u, 1u, 2u, 3u), grid.cells.y) * grid.cells.x + grid.base;
     var sum = vec4<f32>(0.0);
     for (var j = 0u; j < 4u; j++) {
         for (var i = 0u; i < 4u; i++) {
-            let v = grid_texel(grid, first + vec2<u32>(i, j));
+            let v = surface_grids[rows[j] + columns[i]];
             sum += vec4<f32>(wx[i] * wz[j] * v.x, dx[i] * wz[j] * v.x, wx[i] * dz[j] * v.x, wx[i] * wz[j] * v.y);
         }
     }

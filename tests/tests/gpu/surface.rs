@@ -1,5 +1,6 @@
 //! The façade on a device: the composite surface against its CPU twin, and what a frame runs.
 
+mod fade;
 mod land;
 
 use glam::{DVec2, Vec2, Vec3};

@@ -18,6 +18,10 @@ const STILL: f32 = 0.04;
 const FAST: f32 = 0.4;
 /// Seconds over which a body's way is averaged: bobbing is none.
 const AVERAGE: f32 = 2.0;
+/// A body that outruns its waves has them behind it: from the first of these shares of their speed on its grid trails, from
+/// the second on by this share of the window.
+const SLOWER: [f32; 2] = [0.7, 1.2];
+const TRAIL: f32 = 0.2;
 /// Grids made in one decision: each takes a moment.
 const AT_ONCE: usize = 4;
 
@@ -49,6 +53,14 @@ impl OpenWater {
             }
             if self.tick.is_multiple_of(BEAT) {
                 self.share_out(&mut wakes, &desc);
+            }
+            for kept in &wakes.kept {
+                let way = wakes.ways.get(kept.body).copied().unwrap_or_default();
+                if let Some(grid) = self.grids.get_mut(kept.grid) {
+                    let faster = way.length() / grid.desc.wave_speed;
+                    let share = TRAIL * ((faster - SLOWER[0]) / (SLOWER[1] - SLOWER[0])).clamp(0.0, 1.0);
+                    grid.trail = -way.normalize_or_zero().as_dvec2() * grid.room().min_element() * f64::from(share);
+                }
             }
             wakes.desc = Some(desc);
         }
@@ -126,7 +138,7 @@ impl OpenWater {
             if wanted == level || !settled || *left == 0 || !self.fits(wakes, desc, wanted, room) {
                 continue;
             }
-            let Some(new) = self.make(desc, wanted, of) else { continue };
+            let Some(new) = self.make(desc, wanted, of, Some(grid)) else { continue };
             *left -= 1;
             self.pass_on(wakes, grid, new, cells_of(&desc.level(level)));
             (wakes.kept[at].grid, wakes.kept[at].level) = (new, wanted);
@@ -157,7 +169,7 @@ impl OpenWater {
         let level = (wanted..=desc.coarsest())
             .find(|level| self.fits(wakes, desc, *level, desc.cells.saturating_sub(*claimed)));
         if let Some(level) = level {
-            if let Some(grid) = self.make(desc, level, asking) {
+            if let Some(grid) = self.make(desc, level, asking, None) {
                 *left -= 1;
                 wakes.kept.push(Kept { body: asking.body, grid, level, weight: asking.weight });
             }
@@ -184,12 +196,15 @@ impl OpenWater {
         self.grids.iter().len() < MAX_GRIDS && used(wakes, desc) + needed <= room
     }
 
-    fn make(&mut self, desc: &WakesDesc, level: u32, asking: &Asking) -> Option<GridId> {
+    /// A grid around a body, instead of `old` if there is one.
+    fn make(&mut self, desc: &WakesDesc, level: u32, asking: &Asking, old: Option<GridId>) -> Option<GridId> {
         let desc = GridDesc { follow: Follow::Body(asking.body), ..desc.level(level) };
         let id = self.add_grid(desc).ok()?;
         let place = DVec2::new(asking.place.x.into(), asking.place.z.into());
+        let trail = old.and_then(|old| self.grids.get(old).ok()).map_or(DVec2::ZERO, |old| old.trail);
         if let Some(grid) = self.grids.get_mut(id) {
-            grid.center_on(place);
+            grid.trail = trail;
+            grid.center_on(place + trail);
         }
         Some(id)
     }
