@@ -1,21 +1,25 @@
-//! Passes of the grids: `grid_prepare` moves the window, remembers the last tick and adds sources, `grid_step` advances
-//! one sub-step, `grid_draw` writes what is drawn; `grid_medium` stores what the water lies in where it is not plain.
+//! Passes of the grids: `grid_schedule` lists the tiles to be stepped, `grid_prepare` moves the window and adds sources,
+//! `grid_step` advances one sub-step; `grid_draw` writes what is drawn, `grid_query` samples, `grid_medium` stores what the
+//! water lies in where it is not plain.
 //!
 //! A grid's cells stand on a torus: world cell c is stored at c mod torus, so a window that shifts copies nothing. All
 //! grids share three buffers, heights (z, z, previous, foam), memory (phi_x, phi_x, phi_z, phi_z) and medium (a, r; empty
-//! while all grids lie in plain water). All tiles of 16 x 16
-//! cells that are to be stepped stand in one list; a thread steps a strip of eight columns of a tile.
+//! while all grids lie in plain water). Tiles of 16 x 16 cells carry marks: what their last step found. All tiles that are
+//! to be stepped stand in one list a kind; a thread steps a strip of eight columns of a tile.
 //!
 //! Choices are made by `override` constants and `select`, not by branches: a software adapter runs both sides of a
-//! branch, and its cost follows the number of loads and stores, however wide. There a thread walks up all 16 rows of a
-//! tile and keeps rows in registers (5.2 ms at 512 x 512 with a row a thread, 2.5 so), on a GPU it takes a row.
+//! branch, skipping their loads and stores only, and its cost follows the number of these, however wide. There a thread
+//! walks up all 16 rows of a tile and keeps rows in registers (5.2 ms at 512 x 512 with a row a thread, 2.5 so), on a
+//! GPU it takes a row.
 
 mod params;
 
 use crate::{Pass, surface::MAX_GRIDS};
 
-use params::{DRAW_PARAMS, PARAMS, SCHEDULE_PARAMS};
-pub use params::{GridCell, GridDispatch, GridDraw, GridParams, GridSource, GridTile, TickParams};
+use params::{DRAW_PARAMS, PARAMS, QUERY_PARAMS, SCHEDULE_PARAMS};
+pub use params::{
+    GridCell, GridDispatch, GridDraw, GridParams, GridQueries, GridQuery, GridSource, GridTile, TickParams,
+};
 
 /// Cells along one side of a tile.
 pub const TILE: u32 = 16;
@@ -31,6 +35,8 @@ pub const TINY: f32 = 1e-20;
 pub const ARRAYS: u32 = 4;
 /// Arrays of the medium buffer, per grid.
 pub const MEDIUM_ARRAYS: u32 = 2;
+/// Threads of `grid_query`, a point each.
+pub const QUERY_THREADS: u32 = 64;
 /// Threads of `grid_medium`, a cell each.
 pub const MEDIUM_THREADS: u32 = 64;
 /// [`GridDraw::medium`] of a grid that lies in plain water.
@@ -103,7 +109,7 @@ fn constants() -> String {
 fn draw_constants() -> String {
     format!(
         "const DRAW_THREADS: u32 = {DRAW_THREADS}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\n\
-         const NO_MEDIUM: u32 = {NO_MEDIUM}u;\n"
+         const NO_MEDIUM: u32 = {NO_MEDIUM}u;\nconst QUERY_THREADS: u32 = {QUERY_THREADS}u;\n"
     )
 }
 
@@ -161,10 +167,23 @@ pub const STEP: Pass = Pass {
 pub const DRAW: Pass = Pass {
     name: "grid_draw",
     constants: draw_constants,
-    parts: &[include_str!("../wgsl/grid_draw.wgsl")],
+    parts: &[include_str!("../wgsl/shared/grid_ghost.wgsl"), include_str!("../wgsl/grid_draw.wgsl")],
     entry_points: &["grid_draw"],
     params: DRAW_PARAMS,
 };
 
+/// Heights, slopes and vertical velocities at points. `override MEDIUM` tells whether a grid among them has walls.
+pub const QUERY: Pass = Pass {
+    name: "grid_query",
+    constants: draw_constants,
+    parts: &[
+        include_str!("../wgsl/shared/cubic.wgsl"),
+        include_str!("../wgsl/shared/grid_ghost.wgsl"),
+        include_str!("../wgsl/grid_query.wgsl"),
+    ],
+    entry_points: &["grid_query"],
+    params: QUERY_PARAMS,
+};
+
 /// The passes of this area.
-pub const PASSES: &[Pass] = &[MEDIUM, SCHEDULE, PREPARE, STEP, DRAW];
+pub const PASSES: &[Pass] = &[MEDIUM, SCHEDULE, PREPARE, STEP, DRAW, QUERY];

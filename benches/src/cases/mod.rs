@@ -5,6 +5,7 @@ mod energy;
 mod facade;
 mod facade_grids;
 mod grid_border;
+mod grid_gpu;
 mod grid_medium;
 mod grid_phase;
 mod grid_shore;
@@ -48,6 +49,9 @@ pub const CASES: &[Case] = &[
     grid_border::PML,
     grid_border::SHIFT,
     grid_step::STEP,
+    grid_gpu::STEP,
+    grid_gpu::TICK,
+    grid_gpu::ACTIVE,
     grid_shore::SHOALING,
     grid_shore::STANDING,
     grid_medium::PML,

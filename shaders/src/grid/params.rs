@@ -153,6 +153,52 @@ pub struct GridDraw {
     pub pad: [u32; 3],
 }
 
+/// A grid to be sampled.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct GridQuery {
+    /// Where the window's cell (0, 0) is stored.
+    pub corner: [u32; 2],
+    /// Cells of the window.
+    pub cells: [u32; 2],
+    /// Cells of the torus.
+    pub torus: [u32; 2],
+    /// Middle of the fade, cells from the corner.
+    pub middle: [f32; 2],
+    /// Distance from the middle where the fade reaches zero, cells.
+    pub outer: [f32; 2],
+    /// Cells per metre.
+    pub scale: [f32; 2],
+    /// The local origin, cells from the corner.
+    pub offset: [f32; 2],
+    /// Width of the fade, cells.
+    pub width: f32,
+    /// Sub-steps per second.
+    pub rate: f32,
+    /// First `f32` of the current heights.
+    pub now: u32,
+    /// First `f32` of those a sub-step before.
+    pub old: u32,
+    /// First `f32` of its a in the medium, or [`super::NO_MEDIUM`].
+    pub medium: u32,
+    /// Padding.
+    pub pad: u32,
+}
+
+/// What a query asks.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct GridQueries {
+    /// Points.
+    pub points: u32,
+    /// Grids.
+    pub grids: u32,
+    /// Padding.
+    pub pad: [u32; 2],
+    /// The grids.
+    pub list: [GridQuery; MAX_GRIDS],
+}
+
 const GRID: crate::ParamLayout = param_layout!(GridParams {
     corner,
     cells,
@@ -207,3 +253,8 @@ pub(super) const DRAW_PARAMS: &[crate::ParamLayout] = &[param_layout!(GridDraw {
     medium,
     pad
 })];
+
+pub(super) const QUERY_PARAMS: &[crate::ParamLayout] = &[
+    param_layout!(GridQuery { corner, cells, torus, middle, outer, scale, offset, width, rate, now, old, medium, pad }),
+    param_layout!(GridQueries { points, grids, pad, list }),
+];

@@ -6,6 +6,7 @@
 mod context;
 mod grid_draw;
 mod grid_medium;
+mod grid_query;
 mod grid_step;
 mod ocean_fields;
 mod ocean_looks;

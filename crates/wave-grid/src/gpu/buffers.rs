@@ -199,6 +199,11 @@ impl Buffers {
         })
     }
 
+    /// Heights and medium of all grids.
+    pub(super) fn heights_and_ground(&self) -> [&wgpu::Buffer; 2] {
+        [&self.heights, &self.ground]
+    }
+
     /// Uploads what is to be drawn into `pool`.
     pub(super) fn upload_draws(
         &mut self,

@@ -12,6 +12,7 @@ mod grid;
 mod land;
 mod pack;
 mod pass;
+mod query;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -30,6 +31,9 @@ use buffers::Buffers;
 use grid::Grid;
 use pack::{Kind, Packer};
 use pass::Passes;
+use query::Queries;
+
+pub use query::{Answer, MAX_QUERY_POINTS};
 
 /// Most grids.
 pub const MAX_GRIDS: usize = open_water_shaders::surface::MAX_GRIDS;
@@ -55,6 +59,10 @@ pub struct GpuGrids {
     /// Scratch of sources.
     weights: [Vec<f32>; 2],
     activity: Activity,
+    queries: Queries,
+    /// Ticks queued and ticks encoded so far, those included that had nothing to do.
+    queued_ticks: u64,
+    encoded_ticks: u64,
 }
 
 impl GpuGrids {
@@ -72,6 +80,9 @@ impl GpuGrids {
             ticks: VecDeque::new(),
             weights: Default::default(),
             activity: Activity::new(device),
+            queries: Queries::new(device),
+            queued_ticks: 0,
+            encoded_ticks: 0,
         }
     }
 
@@ -205,6 +216,7 @@ impl GpuGrids {
         if self.ticks.len() >= MAX_TICKS {
             return false;
         }
+        self.queued_ticks += 1;
         let tick = self.packer.pack(&mut self.grids);
         if !tick.substeps.is_empty() {
             self.ticks.push_back(tick);
@@ -225,6 +237,7 @@ impl GpuGrids {
     /// Encodes the queued ticks, and takes what has come back of earlier ones. Submit the encoder before encoding again.
     pub fn encode(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) {
         self.activity.poll(device, &mut self.grids);
+        self.encoded_ticks = self.queued_ticks;
         let Some(last) = self.ticks.back() else { return };
         self.activity.expect(&last.grids);
         let counts = (self.ticks.len() - 1) as u64 * u64::from(4 * shader::COUNT_WORDS);

@@ -1,0 +1,335 @@
+//! Cases `grid_gpu_step` (a sub-step on the GPU against plain loops there and on the CPU), `grid_gpu_tick` (whole ticks)
+//! and `grid_gpu_active` (a tick against the share of tiles that hold waves).
+
+use std::{hint::black_box, time::Instant};
+
+use glam::Vec2;
+use open_water_shaders::pipeline::{Slot, bind_group, group_layout, pipeline_layout};
+use wave_grid::gpu::{GpuGridId, GpuGrids};
+use wave_grid::{GridDesc, Scheme, Source, WaveGrid};
+
+use crate::{
+    evidence::{Axis, Case, CaseError, Context, Effort, Gpu, Plot, Row, Timing},
+    fixtures,
+};
+
+/// See the module.
+pub(super) const STEP: Case = Case {
+    name: "grid_gpu_step",
+    about: "a sub-step on the GPU against a plain kernel there and a plain loop on the CPU",
+    plots: &[],
+    run: step,
+};
+
+/// See the module.
+pub(super) const TICK: Case = Case {
+    name: "grid_gpu_tick",
+    about: "whole ticks of one and of eight grids on the GPU: dispatches and time",
+    plots: &[],
+    run: tick,
+};
+
+/// See the module.
+pub(super) const ACTIVE: Case = Case {
+    name: "grid_gpu_active",
+    about: "a tick on the GPU against the share of tiles that are stepped",
+    plots: &[Plot {
+        file: "grid_gpu_active",
+        title: "A tick on the GPU: time against stepped tiles",
+        x: Axis::Param("tiles"),
+        y: Axis::Time,
+        label: Some("cells"),
+    }],
+    run: active,
+};
+
+/// Waves so slow that they stay where they are during a measurement, and the thinnest border.
+fn slow(cells: u32, scheme: Scheme, substeps: u32) -> GridDesc {
+    let (wave_speed, substeps) = (0.05, Some(substeps));
+    GridDesc { cells: [cells; 2], scheme, wave_speed, substeps, pml_width: 4, ..fixtures::grid() }
+}
+
+/// A grid with waves in the tiles of a square with `share` of its area, from a corner on.
+fn awake(gpu: &Gpu, desc: GridDesc, share: f64) -> Result<(GpuGrids, GpuGridId), CaseError> {
+    let mut grids = GpuGrids::new(&gpu.device);
+    let id = grids.insert(desc)?;
+    let tiles = desc.cells[0] / 16;
+    let [x, z] = desc.cell_size;
+    let across = (share.sqrt() * f64::from(tiles)).round() as u32;
+    for k in 0..across * across {
+        // Clear of the border.
+        let middle = |tile: u32| ((16 * tile) as f32 + 8.0).clamp(18.0, desc.cells[0] as f32 - 18.0);
+        let at = Vec2::new(middle(k % across), middle(k / across)) - desc.cells[0] as f32 / 2.0;
+        let center = at * Vec2::new(x, z);
+        grids.add(id, Source::Displacement { center, radius: 6.0 * x, volume: 0.1 * x * z });
+    }
+    for _ in 0..3 {
+        run_ticks(gpu, &mut grids, 1)?;
+    }
+    Ok((grids, id))
+}
+
+fn run_ticks(gpu: &Gpu, grids: &mut GpuGrids, ticks: usize) -> Result<(), CaseError> {
+    for _ in 0..ticks {
+        grids.tick();
+    }
+    gpu.run(|encoder| grids.encode(&gpu.device, &gpu.queue, encoder))
+}
+
+/// The least time of each, in turns: others' work on the machine meets threads and memory differently.
+fn fastest<const N: usize>(effort: Effort, mut functions: [&mut dyn FnMut(); N]) -> [f64; N] {
+    let mut least = [f64::INFINITY; N];
+    functions.iter_mut().for_each(|f| f());
+    let (start, mut repeats) = (Instant::now(), 0);
+    while repeats < 4 * effort.least || start.elapsed() < 4 * effort.budget {
+        for (f, least) in functions.iter_mut().zip(&mut least) {
+            let start = Instant::now();
+            f();
+            *least = least.min(start.elapsed().as_nanos() as f64);
+        }
+        repeats += 1;
+    }
+    least
+}
+
+fn timing(ns: f64) -> Timing {
+    Timing { median_ns: ns.max(1.0), spread_ns: 0.0, repeats: 1 }
+}
+
+fn step(context: &Context) -> Result<Vec<Row>, CaseError> {
+    /// More sub-steps in one submission than in the other, so that what submitting costs can be taken off.
+    const MORE: u32 = 8;
+    let gpu = context.gpu()?;
+    let is_cpu = gpu.adapter.kind == "Cpu";
+    let mut rows = Vec::new();
+    for &cells in context.pick(&[512u32][..], &[512, 1024]) {
+        for (variant, scheme) in [("5-point", Scheme::FivePoint), ("9-point", Scheme::NinePoint)] {
+            let (mut one, _) = awake(gpu, slow(cells, scheme, 1), 1.0)?;
+            let (mut many, id) = awake(gpu, slow(cells, scheme, 1 + MORE), 1.0)?;
+            let stepped = f64::from(many.active_tiles(id).unwrap_or(0)) / f64::from(cells * cells / 256);
+            let kernel = PlainKernel::new(gpu, cells);
+            let mut plain = Plain::new(cells as usize, scheme);
+            let [ours, ours_more, theirs, theirs_more, cpu] = fastest(
+                context.effort,
+                [
+                    &mut || drop(run_ticks(gpu, &mut one, 1)),
+                    &mut || drop(run_ticks(gpu, &mut many, 1)),
+                    &mut || drop(kernel.run(gpu, 1)),
+                    &mut || drop(kernel.run(gpu, 1 + MORE)),
+                    &mut || plain.step(),
+                ],
+            );
+            let [ours, theirs] = [ours_more - ours, theirs_more - theirs].map(|ns| ns / f64::from(MORE));
+            let ratio = ours / theirs;
+            let row = Row::new("grid_gpu_step", variant)
+                .param("cells", cells)
+                .param("adapter", gpu.adapter.kind.clone())
+                .param("stepped_share", stepped)
+                .param("plain_kernel_times_the_cpu_loop", (theirs / cpu * 100.0).round() / 100.0)
+                .error(ratio, "of a plain kernel's time", "WGSL, 5-point, a vec4 and 8 rows a thread, no border")
+                .time("one sub-step of all tiles, border of 4 cells included; fastest", &timing(ours))
+                .baseline("a plain f32 loop over the interior on one CPU thread; fastest", &timing(cpu));
+            // With another scheme, or on a GPU, the plain kernel is there for comparison.
+            rows.push(if is_cpu && scheme == Scheme::FivePoint { row.bound(1.25) } else { row });
+        }
+    }
+    Ok(rows)
+}
+
+fn tick(context: &Context) -> Result<Vec<Row>, CaseError> {
+    let gpu = context.gpu()?;
+    let mut rows = Vec::new();
+    for count in [1usize, 8] {
+        let desc = fixtures::grid();
+        let mut grids = GpuGrids::new(&gpu.device);
+        let ids = (0..count).map(|_| grids.insert(desc)).collect::<Result<Vec<_>, _>>()?;
+        let mut cpu = vec![WaveGrid::new(desc)?; count];
+        let mut time = 0.0f32;
+        let mut stir = |add: &mut dyn FnMut(Source)| {
+            time += desc.tick;
+            let center = Vec2::from_angle(0.4 * time) * 12.0;
+            add(Source::Displacement { center, radius: 2.0, volume: 0.3 * (3.0 * time).sin() });
+        };
+        let mut on_gpu = || {
+            stir(&mut |source| ids.iter().for_each(|id| _ = grids.add(*id, source)));
+            grids.tick();
+            let dispatches = grids.pending_dispatches();
+            let _ = gpu.run(|encoder| grids.encode(&gpu.device, &gpu.queue, encoder));
+            dispatches
+        };
+        // Until the wake fills what it will.
+        let dispatches = (0..240).map(|_| on_gpu()).last().unwrap_or(0);
+        let mut time = 0.0f32;
+        let mut on_cpu = || {
+            time += desc.tick;
+            let center = Vec2::from_angle(0.4 * time) * 12.0;
+            for grid in &mut cpu {
+                grid.add(Source::Displacement { center, radius: 2.0, volume: 0.3 * (3.0 * time).sin() });
+                grid.tick();
+            }
+        };
+        (0..240).for_each(|_| on_cpu());
+        let [ours, theirs] = fastest(context.effort, [&mut || _ = on_gpu(), &mut || on_cpu()]);
+        let stepped: u32 = ids.iter().filter_map(|id| grids.active_tiles(*id)).sum();
+        rows.push(
+            Row::new("grid_gpu_tick", if count == 1 { "1 grid" } else { "8 grids" })
+                .param("cells", desc.cells[0])
+                .param("adapter", gpu.adapter.kind.clone())
+                .param("dispatches", dispatches)
+                .param("stepped_tiles", stepped)
+                .time("a tick of all: list, encode, submit, wait; fastest", &timing(ours))
+                .baseline("the CPU's grids, the same sources; fastest", &timing(theirs)),
+        );
+    }
+    Ok(rows)
+}
+
+fn active(context: &Context) -> Result<Vec<Row>, CaseError> {
+    const MORE: usize = 8;
+    let gpu = context.gpu()?;
+    let mut rows = Vec::new();
+    for &cells in context.pick(&[512u32][..], &[256, 512, 1024]) {
+        for share in [0.001, 0.05, 0.25, 0.5, 1.0] {
+            let (mut grids, id) = awake(gpu, slow(cells, Scheme::NinePoint, 1), share)?;
+            let grids = std::cell::RefCell::new(&mut grids);
+            let run = |ticks| drop(run_ticks(gpu, &mut grids.borrow_mut(), ticks));
+            let [one, more] = fastest(context.effort, [&mut || run(1), &mut || run(1 + MORE)]);
+            let tiles = grids.borrow().active_tiles(id).unwrap_or(0);
+            rows.push(
+                Row::new("grid_gpu_active", format!("{cells} x {cells}"))
+                    .param("cells", cells)
+                    .param("tiles", tiles)
+                    .param("of", cells * cells / 256)
+                    .time(
+                        "a tick of one sub-step, what submitting costs taken off",
+                        &timing((more - one) / MORE as f64),
+                    ),
+            );
+        }
+    }
+    Ok(rows)
+}
+
+/// The best of the plain kernels of the notes: a vec4 of cells and eight rows a thread, rows in registers, no border.
+const PLAIN_WGSL: &str = "
+@group(0) @binding(0) var<uniform> plain: vec4<u32>;
+@group(0) @binding(1) var<storage, read> plain_now: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read_write> plain_old: array<vec4<f32>>;
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let columns = plain.x / 4u;
+    let rows = plain.x;
+    let west = select(id.x - 1u, columns - 1u, id.x == 0u);
+    let east = select(id.x + 1u, 0u, id.x + 1u == columns);
+    let first = id.y * 8u;
+    var s = plain_now[select(first - 1u, rows - 1u, first == 0u) * columns + id.x];
+    var c = plain_now[first * columns + id.x];
+    for (var k = 0u; k < 8u; k++) {
+        let row = (first + k) * columns;
+        let north = select(row + columns, 0u, first + k + 1u == rows);
+        let n = plain_now[north + id.x];
+        let w = vec4<f32>(plain_now[row + west].w, c.xyz);
+        let e = vec4<f32>(c.yzw, plain_now[row + east].x);
+        let sum = (w + e) + (s + n);
+        plain_old[row + id.x] = 0.04 * c + 0.49 * sum - plain_old[row + id.x];
+        s = c;
+        c = n;
+    }
+}";
+
+struct PlainKernel {
+    pipeline: wgpu::ComputePipeline,
+    groups: [wgpu::BindGroup; 2],
+    cells: u32,
+}
+
+impl PlainKernel {
+    fn new(gpu: &Gpu, cells: u32) -> Self {
+        let device = &gpu.device;
+        let slots = [Slot::Uniform { size: 16 }, Slot::Read, Slot::ReadWrite];
+        let layout = group_layout(device, "plain", wgpu::ShaderStages::COMPUTE, &slots);
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("plain"),
+            source: wgpu::ShaderSource::Wgsl(PLAIN_WGSL.into()),
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("plain"),
+            layout: Some(&pipeline_layout(device, "plain", &[&layout])),
+            module: &module,
+            entry_point: Some("main"),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+        let buffer = |usage: wgpu::BufferUsages, data: &[u8]| {
+            let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("plain"),
+                size: data.len() as u64,
+                usage: usage | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            gpu.queue.write_buffer(&buffer, 0, data);
+            buffer
+        };
+        let heights: Vec<u8> = heights((cells * cells) as usize).iter().flat_map(|z| z.to_ne_bytes()).collect();
+        let [a, b] = [0, 1].map(|_| buffer(wgpu::BufferUsages::STORAGE, &heights));
+        let size = buffer(wgpu::BufferUsages::UNIFORM, &[cells.to_ne_bytes(); 4].concat());
+        let group = |now: &wgpu::Buffer, old: &wgpu::Buffer| {
+            bind_group(device, "plain", &layout, &[&size, now, old].map(wgpu::Buffer::as_entire_binding))
+        };
+        Self { pipeline, groups: [group(&a, &b), group(&b, &a)], cells }
+    }
+
+    fn run(&self, gpu: &Gpu, steps: u32) -> Result<(), CaseError> {
+        gpu.run(|encoder| {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&self.pipeline);
+            for k in 0..steps {
+                pass.set_bind_group(0, &self.groups[(k & 1) as usize], &[]);
+                pass.dispatch_workgroups(self.cells / 4 / 64, self.cells / 8, 1);
+            }
+        })
+    }
+}
+
+/// Small heights without a pattern.
+fn heights(count: usize) -> Vec<f32> {
+    let mut random = fixtures::Random::new(4);
+    (0..count).map(|_| random.within(-0.01, 0.01) as f32).collect()
+}
+
+/// The scheme as a textbook writes it: uniform c, fixed rim.
+struct Plain {
+    nx: usize,
+    now: Vec<f32>,
+    before: Vec<f32>,
+    nine: bool,
+}
+
+impl Plain {
+    fn new(nx: usize, scheme: Scheme) -> Self {
+        let now = heights(nx * nx);
+        Self { nx, before: now.clone(), now, nine: scheme == Scheme::NinePoint }
+    }
+
+    fn step(&mut self) {
+        let nx = self.nx;
+        for j in 1..nx - 1 {
+            let row = |j: usize| &self.now[j * nx..(j + 1) * nx];
+            let (above, here, below) = (row(j - 1), row(j), row(j + 1));
+            let before = &mut self.before[j * nx..(j + 1) * nx];
+            if self.nine {
+                for i in 1..nx - 1 {
+                    let edges = here[i - 1] + here[i + 1] + above[i] + below[i];
+                    let corners = above[i - 1] + above[i + 1] + below[i - 1] + below[i + 1];
+                    before[i] = 0.1 * here[i] + 0.4 * edges + 0.075 * corners - before[i];
+                }
+            } else {
+                for i in 1..nx - 1 {
+                    before[i] = 0.04 * here[i] + 0.49 * (here[i - 1] + here[i + 1] + above[i] + below[i]) - before[i];
+                }
+            }
+        }
+        std::mem::swap(&mut self.now, &mut self.before);
+        black_box(&self.now);
+    }
+}
