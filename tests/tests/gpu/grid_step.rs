@@ -203,3 +203,32 @@ fn quiet_tiles_are_not_stepped_and_a_calm_grid_sleeps() {
     let [height, _, most] = twins.compare(&context, 1.0)[0];
     assert!(most > 0.01 && height <= 1e-5 * most && !twins.gpu.is_asleep(id), "{height} of {most}");
 }
+
+#[test]
+fn ticks_survive_an_encoder_that_is_dropped() {
+    let context = Context::new();
+    let desc = GridDesc { cells: [80, 64], wave_speed: 20.0, cell_size: [2.0; 2], tick: 0.25, ..Default::default() };
+    let mut twins = twins(&context, &[desc]);
+    for t in 0..12 {
+        twins.add(0, stone(t as f32, 0.0, 8.0, 50.0));
+        twins.tick();
+        // The first is dropped when the buffers grow to the grid's size, one is dropped after another.
+        if [0, 4, 5, 9].contains(&t) {
+            let mut encoder = context.device.create_command_encoder(&Default::default());
+            twins.gpu.encode(&context.device, &context.queue, &mut encoder);
+            let finished = (t > 4).then(|| encoder.finish());
+            drop(finished);
+        } else if t != 2 {
+            twins.encode(&context);
+        }
+        if t == 6 {
+            // Grows again, in an encoder that is dropped.
+            let _ = twins.gpu.insert(desc).unwrap();
+            twins.tick();
+            let mut encoder = context.device.create_command_encoder(&Default::default());
+            twins.gpu.encode(&context.device, &context.queue, &mut encoder);
+        }
+    }
+    let [height, _, most] = twins.compare(&context, 1.0)[0];
+    assert!(most > 0.1 && height <= 1e-5 * most, "{height} of {most}");
+}

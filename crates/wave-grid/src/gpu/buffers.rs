@@ -4,12 +4,14 @@ use std::collections::VecDeque;
 
 use bytemuck::{NoUninit, Zeroable};
 use open_water_shaders::grid::{
-    ACTIVE_WORD, ARRAYS, COUNT_WORDS, GridDispatch, GridDraw, KINDS, MEDIUM_ARRAYS, TILE, TickParams,
+    ACTIVE_WORD, ARRAYS, COUNT_WORDS, GridCell, GridDispatch, GridDraw, GridSource, GridTile, KINDS, MEDIUM_ARRAYS,
+    TILE, TickParams,
 };
 use open_water_shaders::pipeline::bind_group;
 
 use super::MAX_GRIDS;
-use super::pack::{self, Packer, Tick, Work};
+use super::flight::Flight;
+use super::pack::{self, Tick, Work};
 use super::pass::{DISPATCH_STRIDE, Passes};
 
 /// A buffer that is written anew and grows in powers of two.
@@ -73,6 +75,18 @@ pub(super) struct Buffers {
     draw_group: Option<(wgpu::Buffer, wgpu::BindGroup)>,
     /// The dispatches' uniforms as uploaded.
     uniforms: Vec<Slot>,
+    upload: Upload,
+    /// Heights, memory, medium and marks before they grew, until the encoder that copies them is done.
+    outgrown: Vec<(Flight, [wgpu::Buffer; 4])>,
+}
+
+/// What is uploaded of all queued ticks.
+#[derive(Debug, Default)]
+struct Upload {
+    params: Vec<TickParams>,
+    tiles: Vec<GridTile>,
+    sources: Vec<GridSource>,
+    cells: Vec<GridCell>,
 }
 
 /// Bind groups of the ticks' passes.
@@ -107,6 +121,8 @@ impl Buffers {
             groups: None,
             draw_group: None,
             uniforms: Vec::new(),
+            upload: Upload::default(),
+            outgrown: Vec::new(),
         }
     }
 
@@ -118,6 +134,9 @@ impl Buffers {
         vectors: u64,
         felt: bool,
     ) {
+        self.settle();
+        let before = [&self.heights, &self.memory, &self.ground, &self.marks].map(wgpu::Buffer::clone);
+        let mut grown = false;
         let bytes = 16 * vectors;
         let of_ground = bytes * u64::from(MEDIUM_ARRAYS) / u64::from(ARRAYS);
         for (buffer, label, bytes) in [
@@ -131,24 +150,53 @@ impl Buffers {
                 let larger = create(device, label, STATE_USAGE, bytes);
                 encoder.copy_buffer_to_buffer(buffer, 0, &larger, 0, buffer.size());
                 *buffer = larger;
-                self.groups = None;
-                self.draw_group = None;
+                grown = true;
             }
+        }
+        if grown {
+            self.groups = None;
+            self.draw_group = None;
+            self.outgrown.push((Flight::board(encoder), before));
         }
     }
 
-    /// Uploads the queued ticks and forgets them in the packer.
+    /// Takes back the buffers that an encoder should have copied that was dropped.
+    fn settle(&mut self) {
+        if let Some(lost) = self.outgrown.iter().position(|(flight, _)| flight.is_lost()) {
+            for (_, before) in self.outgrown.drain(lost..).take(1) {
+                [self.heights, self.memory, self.ground, self.marks] = before;
+            }
+            self.groups = None;
+            self.draw_group = None;
+        }
+        self.outgrown.retain(|(flight, _)| !flight.has_landed());
+    }
+
+    /// Uploads the queued ticks.
     pub(super) fn upload(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         passes: &Passes,
-        packer: &mut Packer,
-        ticks: &VecDeque<Tick>,
+        ticks: &mut VecDeque<Tick>,
     ) -> &Groups {
-        self.uniforms.clear();
+        let Self { uniforms, upload: Upload { params, tiles, sources, cells }, .. } = self;
+        uniforms.clear();
+        params.clear();
+        tiles.clear();
+        sources.clear();
+        cells.clear();
+        let mut most_tiles = 0;
         let mut counts = Vec::with_capacity(ticks.len() * COUNT_WORDS as usize);
-        for (tick, index) in ticks.iter().zip(0..) {
+        for (tick, index) in ticks.iter_mut().zip(0..) {
+            tick.first = [tiles.len() as u32, cells.len() as u32];
+            most_tiles = tick.tiles.len().max(most_tiles);
+            let first_source = sources.len() as u32;
+            let moved = |tile: &GridTile| GridTile { first_source: tile.first_source + first_source, ..*tile };
+            tiles.extend(tick.tiles.iter().map(moved));
+            params.push(tick.params);
+            sources.extend_from_slice(&tick.sources);
+            cells.extend_from_slice(&tick.cells);
             let of_tick = index * COUNT_WORDS;
             for Work { first, substep, count, groups, .. } in tick.dispatches() {
                 let work = match groups {
@@ -157,24 +205,23 @@ impl Buffers {
                 };
                 let mut slot = Slot::zeroed();
                 slot[0] = GridDispatch { first, substep, count, work };
-                self.uniforms.push(slot);
+                uniforms.push(slot);
             }
             let mut own = [0u32; COUNT_WORDS as usize];
             own[..ACTIVE_WORD as usize].as_chunks_mut::<4>().0.fill([0, 1, 1, 0]);
             counts.extend(own);
         }
-        let mut stale = self.dispatches.write(device, queue, &self.uniforms);
-        stale |= self.params.write(device, queue, &packer.params);
-        stale |= self.tiles.write(device, queue, &packer.tiles);
-        stale |= self.sources.write(device, queue, &packer.sources);
-        stale |= self.cells.write(device, queue, &packer.cells);
+        let mut stale = self.dispatches.write(device, queue, uniforms);
+        stale |= self.params.write(device, queue, params);
+        stale |= self.tiles.write(device, queue, tiles);
+        stale |= self.sources.write(device, queue, sources);
+        stale |= self.cells.write(device, queue, cells);
         stale |= self.counts.write(device, queue, &counts);
-        let list = u64::from(packer.most_tiles * (KINDS + 1)) * 16;
+        let list = most_tiles as u64 * u64::from(KINDS + 1) * 16;
         if list > self.list.size() {
             self.list = create(device, "grid list", wgpu::BufferUsages::STORAGE, list);
             stale = true;
         }
-        packer.clear();
         if stale {
             self.groups = None;
         }

@@ -8,6 +8,8 @@
 
 mod activity;
 mod buffers;
+mod encode;
+mod flight;
 mod grid;
 mod land;
 mod pack;
@@ -18,7 +20,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use glam::DVec2;
-use open_water_shaders::grid::{self as shader, DRAW_THREADS, TickParams};
+use open_water_shaders::grid as shader;
 
 use crate::cpu::foam::FoamLaw;
 use crate::medium::{Medium, SharedMedium};
@@ -28,8 +30,9 @@ use crate::{GridDesc, GridError, Source, Window};
 
 use activity::Activity;
 use buffers::Buffers;
+use flight::Flight;
 use grid::Grid;
-use pack::{Kind, Packer};
+use pack::Packer;
 use pass::Passes;
 use query::Queries;
 
@@ -56,6 +59,8 @@ pub struct GpuGrids {
     buffers: Buffers,
     packer: Packer,
     ticks: VecDeque<pack::Tick>,
+    /// What the last encoder took with it.
+    sent: Option<(Flight, VecDeque<pack::Tick>)>,
     /// Scratch of sources.
     weights: [Vec<f32>; 2],
     activity: Activity,
@@ -78,6 +83,7 @@ impl GpuGrids {
             buffers,
             packer: Packer::default(),
             ticks: VecDeque::new(),
+            sent: None,
             weights: Default::default(),
             activity: Activity::new(device),
             queries: Queries::new(device),
@@ -227,72 +233,6 @@ impl GpuGrids {
     /// Dispatches that the next [`Self::encode`] will encode; zero when all grids sleep.
     pub fn pending_dispatches(&self) -> usize {
         self.ticks.iter().map(|tick| tick.dispatches().count()).sum()
-    }
-
-    fn reserve(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
-        let felt = self.grids.iter().any(|grid| grid.cells().is_some());
-        self.buffers.reserve_state(device, encoder, u64::from(self.state_vectors()), felt);
-    }
-
-    /// Encodes the queued ticks, and takes what has come back of earlier ones. Submit the encoder before encoding again.
-    pub fn encode(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) {
-        self.activity.poll(device, &mut self.grids);
-        self.encoded_ticks = self.queued_ticks;
-        let Some(last) = self.ticks.back() else { return };
-        self.activity.expect(&last.grids);
-        let counts = (self.ticks.len() - 1) as u64 * u64::from(4 * shader::COUNT_WORDS);
-        self.reserve(device, encoder);
-        let groups = self.buffers.upload(device, queue, &self.passes, &mut self.packer, &self.ticks);
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() });
-        let mut dispatch = 0;
-        for (index, tick) in (0..).zip(self.ticks.drain(..)) {
-            let params = index * size_of::<TickParams>() as u32;
-            for work in tick.dispatches() {
-                pass.set_pipeline(self.passes.of(work.kind));
-                pass.set_bind_group(0, &groups.state, &[dispatch * pass::DISPATCH_STRIDE, params]);
-                let lists = if matches!(work.kind, Kind::Schedule) { &groups.schedule } else { &groups.lists };
-                pass.set_bind_group(1, lists, &[]);
-                match work.groups {
-                    pack::Groups::Counted(count) => pass.dispatch_workgroups(count, 1, 1),
-                    pack::Groups::Listed(list) => {
-                        let word = u64::from(index * shader::COUNT_WORDS + 4 * list);
-                        pass.dispatch_workgroups_indirect(&groups.counts, 4 * word);
-                    }
-                }
-                dispatch += 1;
-            }
-        }
-        drop(pass);
-        self.activity.encode(encoder, &groups.counts, counts);
-    }
-
-    /// Encodes the drawing of grids as of the last encoded tick: (height, foam) of cell (i, j) goes to element
-    /// `base + j * nx + i` of `pool`, a storage buffer of `vec2<f32>`. `alpha` as in [`crate::WaveGrid::draw`]. Asleep
-    /// grids are drawn as zeros.
-    pub fn encode_draw(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        pool: &wgpu::Buffer,
-        draws: &[(GpuGridId, u32)],
-        alpha: f32,
-    ) {
-        if draws.is_empty() {
-            return;
-        }
-        let alpha = if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) };
-        self.reserve(device, encoder);
-        let draws: Vec<_> = draws.iter().take(MAX_GRIDS).map(|(id, out)| self.grids[id.0].drawn(alpha, *out)).collect();
-        let [x, y] = [0, 1].map(|k| draws.iter().map(|d| d.cells[k]).max().unwrap_or(0));
-        let draw_group = self.buffers.upload_draws(device, queue, &self.passes, pool, &draws);
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grid draw"), ..Default::default() });
-        let felt = draws.iter().any(|draw| draw.medium != shader::NO_MEDIUM);
-        pass.set_pipeline(&self.passes.draw[usize::from(felt)]);
-        pass.set_bind_group(0, draw_group, &[]);
-        pass.dispatch_workgroups(x.div_ceil(DRAW_THREADS), y, draws.len() as u32);
     }
 
     /// Where a grid's window stands.

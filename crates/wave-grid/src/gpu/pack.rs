@@ -28,13 +28,16 @@ impl TileKind {
 }
 
 /// A queued tick.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Tick {
-    /// First of its tiles in the upload, and how many: all of the awake grids.
-    first: u32,
-    count: u32,
-    /// First of the cells whose medium it stores, and how many.
-    cells: [u32; 2],
+    pub(super) params: TickParams,
+    /// All tiles of the awake grids; their sources are counted from the tick's first.
+    pub(super) tiles: Vec<GridTile>,
+    pub(super) sources: Vec<GridSource>,
+    /// What to store of the medium.
+    pub(super) cells: Vec<GridCell>,
+    /// Where its tiles and cells begin in the upload.
+    pub(super) first: [u32; 2],
     /// A grid moved.
     moved: bool,
     /// A tile is mixed.
@@ -84,12 +87,12 @@ pub(super) struct Work {
 impl Tick {
     /// The tick's dispatches in order.
     pub(super) fn dispatches(&self) -> impl Iterator<Item = Work> {
-        let [first, cells] = self.cells;
+        let [count, cells] = [self.tiles.len(), self.cells.len()].map(|n| n as u32);
+        let [first_tile, first_cell] = self.first;
         let groups = Groups::Counted(cells.div_ceil(MEDIUM_THREADS));
-        let medium = Work { kind: Kind::Medium, first, count: cells, substep: 0, groups };
-        let count = self.count;
+        let medium = Work { kind: Kind::Medium, first: first_cell, count: cells, substep: 0, groups };
         let groups = Groups::Counted(count.div_ceil(SCHEDULE_THREADS));
-        let schedule = Work { kind: Kind::Schedule, first: self.first, count, substep: 0, groups };
+        let schedule = Work { kind: Kind::Schedule, first: first_tile, count, substep: 0, groups };
         let listed =
             move |kind, list, substep| Work { kind, first: list * count, count, substep, groups: Groups::Listed(list) };
         let prepare = listed(Kind::Prepare { moved: self.moved, medium: self.medium }, KINDS, 0);
@@ -102,50 +105,39 @@ impl Tick {
     }
 }
 
-/// What is to be uploaded.
+/// Makes ticks.
 #[derive(Debug, Default)]
 pub(super) struct Packer {
-    /// One entry per tick.
-    pub(super) params: Vec<TickParams>,
-    pub(super) tiles: Vec<GridTile>,
-    pub(super) sources: Vec<GridSource>,
-    pub(super) cells: Vec<GridCell>,
+    /// What the tick in the making holds.
+    tiles: Vec<GridTile>,
+    sources: Vec<GridSource>,
+    cells: Vec<GridCell>,
     /// ((grid, place of a tile), source).
     placed: Vec<((u32, u32), GridSource)>,
     /// (grid, place of a tile) with a source in it or beside it.
     forced: Vec<(u32, u32)>,
-    /// Most tiles of a tick.
-    pub(super) most_tiles: u32,
 }
 
 impl Packer {
-    /// Forgets what was uploaded.
-    pub(super) fn clear(&mut self) {
-        self.params.clear();
-        self.tiles.clear();
-        self.sources.clear();
-        self.cells.clear();
-        self.most_tiles = 0;
+    /// Takes the memory of ticks that are done with.
+    pub(super) fn reuse(&mut self, ticks: impl Iterator<Item = Tick>) {
+        for tick in ticks {
+            if tick.tiles.capacity() > self.tiles.capacity() {
+                self.tiles = tick.tiles;
+                self.tiles.clear();
+            }
+        }
     }
 
-    /// Appends one tick, and moves the grids on.
+    /// Makes one tick, and moves the grids on.
     pub(super) fn pack(&mut self, grids: &mut [Grid]) -> Tick {
         let mut order: Vec<usize> = (0..grids.len()).filter(|g| grids[*g].awake > 0).collect();
         order.sort_by_key(|g| std::cmp::Reverse(grids[*g].stepping.substeps));
         let most = order.first().map_or(0, |g| grids[*g].stepping.substeps);
-        let mut tick = Tick {
-            first: self.tiles.len() as u32,
-            count: 0,
-            cells: [self.cells.len() as u32, 0],
-            moved: false,
-            medium: false,
-            substeps: vec![Substep::default(); most as usize],
-            grids: Vec::new(),
-        };
+        let mut tick = Tick { substeps: vec![Substep::default(); most as usize], ..Tick::default() };
         if order.is_empty() {
             return tick;
         }
-        let mut params = TickParams::default();
         self.placed.clear();
         self.forced.clear();
         for (slot, g) in order.iter().enumerate() {
@@ -153,14 +145,13 @@ impl Packer {
             // The last tick of a grid stills it, unless the GPU's own word has ever come back.
             grid.awake -= u32::from(grid.awake > 1 || grid.active.is_none());
             grid.clear |= grid.awake == 0;
-            params[slot] = packed(grid);
-            tick.moved |= params[slot].moved != STOOD;
+            tick.params[slot] = packed(grid);
+            tick.moved |= tick.params[slot].moved != STOOD;
             self.place_sources(slot as u32, grid);
             if let Some(land) = &mut grid.land {
                 land.upload(slot as u32, grid.torus, &mut self.cells);
             }
         }
-        tick.cells[1] = self.cells.len() as u32 - tick.cells[0];
         self.placed.sort_by_key(|(tile, _)| *tile);
         self.forced.sort_unstable();
         let mut lists = [false; KINDS as usize];
@@ -174,9 +165,10 @@ impl Packer {
                 substep.last |= k + 1 == own;
             }
         }
-        tick.count = self.tiles.len() as u32 - tick.first;
         tick.medium = lists[2] || lists[3];
-        self.most_tiles = self.most_tiles.max(tick.count);
+        tick.tiles = std::mem::take(&mut self.tiles);
+        tick.sources = std::mem::take(&mut self.sources);
+        tick.cells = std::mem::take(&mut self.cells);
         for g in order {
             let grid = &mut grids[g];
             grid.parity = (grid.parity + grid.stepping.substeps) & 1;
@@ -187,7 +179,6 @@ impl Packer {
             grid.moving &= grid.awake > 0;
             grid.sources.clear();
         }
-        self.params.push(params);
         tick
     }
 

@@ -1,0 +1,85 @@
+//! Writes the queued ticks, and the drawing of grids, into encoders.
+
+use open_water_shaders::grid::{self as shader, DRAW_THREADS, TickParams};
+
+use super::flight::Flight;
+use super::pack::{self, Kind};
+use super::{GpuGridId, GpuGrids, MAX_GRIDS, pass};
+
+impl GpuGrids {
+    pub(super) fn reserve(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
+        let felt = self.grids.iter().any(|grid| grid.cells().is_some());
+        self.buffers.reserve_state(device, encoder, u64::from(self.state_vectors()), felt);
+    }
+
+    /// Encodes the queued ticks, and takes what has come back of earlier ones. Submit the encoder, or drop it, before
+    /// encoding again: the ticks of an encoder that was dropped are encoded anew, before those queued since.
+    pub fn encode(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) {
+        self.activity.poll(device, &mut self.grids);
+        self.encoded_ticks = self.queued_ticks;
+        if let Some((flight, mut ticks)) = self.sent.take() {
+            if flight.is_lost() {
+                ticks.append(&mut self.ticks);
+                self.ticks = ticks;
+            } else {
+                self.packer.reuse(ticks.into_iter());
+            }
+        }
+        let Some(last) = self.ticks.back() else { return };
+        self.activity.expect(&last.grids);
+        let counts = (self.ticks.len() - 1) as u64 * u64::from(4 * shader::COUNT_WORDS);
+        self.reserve(device, encoder);
+        let groups = self.buffers.upload(device, queue, &self.passes, &mut self.ticks);
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() });
+        let mut dispatch = 0;
+        for (index, tick) in (0..).zip(&self.ticks) {
+            let params = index * size_of::<TickParams>() as u32;
+            for work in tick.dispatches() {
+                pass.set_pipeline(self.passes.of(work.kind));
+                pass.set_bind_group(0, &groups.state, &[dispatch * pass::DISPATCH_STRIDE, params]);
+                let lists = if matches!(work.kind, Kind::Schedule) { &groups.schedule } else { &groups.lists };
+                pass.set_bind_group(1, lists, &[]);
+                match work.groups {
+                    pack::Groups::Counted(count) => pass.dispatch_workgroups(count, 1, 1),
+                    pack::Groups::Listed(list) => {
+                        let word = u64::from(index * shader::COUNT_WORDS + 4 * list);
+                        pass.dispatch_workgroups_indirect(&groups.counts, 4 * word);
+                    }
+                }
+                dispatch += 1;
+            }
+        }
+        drop(pass);
+        self.activity.encode(encoder, &groups.counts, counts);
+        self.sent = Some((Flight::board(encoder), std::mem::take(&mut self.ticks)));
+    }
+
+    /// Encodes the drawing of grids as of the last encoded tick: (height, foam) of cell (i, j) goes to element
+    /// `base + j * nx + i` of `pool`, a storage buffer of `vec2<f32>`. `alpha` as in [`crate::WaveGrid::draw`]. Asleep
+    /// grids are drawn as zeros.
+    pub fn encode_draw(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        pool: &wgpu::Buffer,
+        draws: &[(GpuGridId, u32)],
+        alpha: f32,
+    ) {
+        if draws.is_empty() {
+            return;
+        }
+        let alpha = if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) };
+        self.reserve(device, encoder);
+        let draws: Vec<_> = draws.iter().take(MAX_GRIDS).map(|(id, out)| self.grids[id.0].drawn(alpha, *out)).collect();
+        let [x, y] = [0, 1].map(|k| draws.iter().map(|d| d.cells[k]).max().unwrap_or(0));
+        let draw_group = self.buffers.upload_draws(device, queue, &self.passes, pool, &draws);
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grid draw"), ..Default::default() });
+        let felt = draws.iter().any(|draw| draw.medium != shader::NO_MEDIUM);
+        pass.set_pipeline(&self.passes.draw[usize::from(felt)]);
+        pass.set_bind_group(0, draw_group, &[]);
+        pass.dispatch_workgroups(x.div_ceil(DRAW_THREADS), y, draws.len() as u32);
+    }
+}
