@@ -1,5 +1,7 @@
 //! A grid of interactive waves homed on the CPU.
 
+use std::sync::Arc;
+
 use fearless_simd::Level;
 use glam::{DVec2, Vec2};
 
@@ -26,7 +28,8 @@ pub struct GridSample {
 
 /// Waves on a window of cells that follows a target, absorbed at its border.
 ///
-/// `z_tt + sigma z_t = div(c^2 grad z)`, explicit in time, c and sigma as its [`crate::Medium`] has them. Cloning it is a snapshot.
+/// `z_tt + sigma z_t = div(c^2 grad z)`, explicit in time, c and sigma as its [`crate::Medium`] has them. See [`WaveGrid::snapshot`]
+/// for going back.
 #[derive(Debug, Clone)]
 pub struct WaveGrid {
     pub(crate) desc: GridDesc,
@@ -35,7 +38,7 @@ pub struct WaveGrid {
     pub(crate) origin: DVec2,
     pub(crate) state: State,
     pub(crate) tiles: Tiles,
-    pub(crate) ground: Option<Ground>,
+    pub(crate) ground: Option<Arc<Ground>>,
     pub(crate) feed: Option<Feed>,
     pub(crate) coefficients: Coefficients,
     /// The machine's vector units.
@@ -49,6 +52,8 @@ pub struct WaveGrid {
     /// What is drawn as the tick before is what stands now: since the last tick a source was added or nothing moves.
     pub(crate) captured: bool,
     pub(crate) skipping: bool,
+    /// The layer is that of a window that moves.
+    pub(crate) moving: bool,
     pub(crate) dropped: u64,
     /// Where there is a current.
     pub(crate) carrier: Option<Carrier>,
@@ -82,6 +87,7 @@ impl WaveGrid {
             fade: [vec![0.0; nx], vec![0.0; nz]],
             captured: true,
             skipping: true,
+            moving: false,
             dropped: 0,
             weights: Default::default(),
             carrier: None,
@@ -98,7 +104,8 @@ impl WaveGrid {
         }
     }
 
-    fn set_moving(&mut self, moving: bool) {
+    pub(crate) fn set_moving(&mut self, moving: bool) {
+        self.moving = moving;
         let profile = Profile::new(self.desc.pml_width, self.stepping.a, moving);
         if profile != self.profile {
             self.profile = profile;
@@ -116,7 +123,7 @@ impl WaveGrid {
             Move::Shift(shift) => {
                 let moved = self.tiles.shift(shift);
                 if let Some(ground) = &mut self.ground {
-                    ground.shift(shift, moved, &mut self.tiles);
+                    Arc::make_mut(ground).shift(shift, moved, &mut self.tiles);
                 }
                 if !self.at_rest() {
                     self.set_moving(true);

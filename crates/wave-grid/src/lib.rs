@@ -23,6 +23,10 @@
 //! # Ok::<(), wave_grid::GridError>(())
 //! ```
 
+// Tests within share scenarios with those without.
+#[cfg(test)]
+extern crate self as wave_grid;
+
 mod access;
 mod border;
 mod cpu;
@@ -39,6 +43,7 @@ mod measure;
 mod medium;
 mod resample;
 mod settings;
+mod snapshot;
 mod source;
 mod state;
 mod tick;
@@ -51,6 +56,7 @@ pub use error::GridError;
 pub use feed::{Edges, FeedLine, Incident, Side};
 pub use grid::{GridSample, WaveGrid};
 pub use medium::{CellKind, Medium, MediumCell};
+pub use snapshot::GridSnapshot;
 pub use source::{HEIGHT_LIMIT, Rain, Source, WaveMaker};
 pub use train::WaveTrain;
 pub use window::Window;

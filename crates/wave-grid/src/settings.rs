@@ -23,7 +23,8 @@ impl WaveGrid {
         for tile in &mut self.tiles.tiles {
             tile.class = Class::Plain;
         }
-        self.ground = medium.map(|medium| Ground::new(SharedMedium(medium), law, corner, &mut self.tiles));
+        let ground = medium.map(|medium| Ground::new(SharedMedium(medium), law, corner, &mut self.tiles));
+        self.ground = ground.map(Arc::new);
         self.dry_walls();
         if let Some(cells) = self.ground.as_ref().and_then(|ground| ground.cells.as_ref()) {
             let State { z, old, previous, .. } = &mut self.state;
@@ -34,8 +35,10 @@ impl WaveGrid {
 
     /// Reads the medium anew.
     pub(crate) fn read_ground(&mut self) {
-        if let Some(Ground { medium, law, .. }) = self.ground.take() {
-            self.ground = Some(Ground::new(medium, law, self.place.window.corner, &mut self.tiles));
+        if let Some(ground) = self.ground.take() {
+            let corner = self.place.window.corner;
+            let ground = Ground::new(ground.medium.clone(), ground.law, corner, &mut self.tiles);
+            self.ground = Some(Arc::new(ground));
         }
     }
 
@@ -59,7 +62,7 @@ impl WaveGrid {
         self.update_fade();
     }
 
-    fn new_feed(&self, edges: Edges) -> Feed {
+    pub(crate) fn new_feed(&self, edges: Edges) -> Feed {
         Feed::new(edges, &self.desc, &self.stepping, &self.place.window, self.cells())
     }
 

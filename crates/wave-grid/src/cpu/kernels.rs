@@ -3,8 +3,10 @@
 //! Inner loops are inlined where the machine's vector units are known (see [`crate::cpu::step`]). Each cell does the same
 //! operations in the same order on any of them, without fused multiply-add, so that the bits are the same.
 
+use fearless_simd::Simd;
 use open_water_shaders::grid::TINY;
 
+use crate::cpu::lanes::{At, Lanes, Vector};
 use crate::cpu::plain::PlainLaw;
 use crate::{GridDesc, Stepping};
 
@@ -74,51 +76,77 @@ pub(crate) struct LayerRow<'a> {
 /// z+ = z + R R/(1+s) [ (1-s)(1 - Zi/2)(1 - Zj/2)(z - z_old) - Zi Zj z + div(a grad z) + div(phibar) ], at s = 0
 /// R R [ 2(1 - Zi Zj/4) z + div(a grad z) + div(phibar) ] - A A z_old arranged for small changes.
 #[inline(always)]
-pub(crate) fn layer_row(
-    old: &mut [f32],
-    phi_x: &mut [f32],
-    phi_z: &mut [f32],
+pub(crate) fn layer_row<S: Simd>(
+    simd: S,
+    [old, phi_x, phi_z]: [&mut [f32]; 3],
     most: &mut [f32],
     r: &LayerRow,
     k: &Coefficients,
 ) {
     let n = old.len();
-    let (phi_x, phi_z, most) = (&mut phi_x[..n], &mut phi_z[..n], &mut most[..n]);
-    let (west, centre, east) = (&r.row[..n], &r.row[1..n + 1], &r.row[2..n + 2]);
-    let (south_west, south, south_east) = (&r.below[..n], &r.below[1..n + 1], &r.below[2..n + 2]);
-    let (north_west, north, north_east) = (&r.above[..n], &r.above[1..n + 1], &r.above[2..n + 2]);
-    let (px0, px1) = (&r.phi_x[..n], &r.phi_x[1..n + 1]);
-    let (pz0, pz1) = (&r.phi_z[0][..n], &r.phi_z[1][..n]);
-    let (node, node_gain) = (&r.node[..n], &r.node_gain[..n]);
-    let (edge0, edge1) = (&r.edge[..n], &r.edge[1..n + 1]);
-    let (gain0, gain1) = (&r.gain[..n], &r.gain[1..n + 1]);
-    let (keep0, keep1) = (&r.keep[..n], &r.keep[1..n + 1]);
-    let [zj, gain_z] = r.node_z;
-    let scale = gain_z / (1.0 + k.damping);
-    let rate = (1.0 - k.damping) * (1.0 - 0.5 * zj);
-    let [[e_s, r_s, a_s], [e_n, r_n, a_n]] = r.edge_z;
-    let ([straight_x, straight_z], [beside_x, beside_z]) = (k.straight, k.beside);
-    for i in 0..n {
-        let z = centre[i];
-        let (w, e, s, t) = (west[i], east[i], south[i], north[i]);
-        let (sw, se, nw, ne) = (south_west[i], south_east[i], north_west[i], north_east[i]);
-        let flux_w = straight_x * (z - w) + beside_x * ((t - nw) + (s - sw));
-        let flux_e = straight_x * (e - z) + beside_x * ((ne - t) + (se - s));
-        let flux_s = straight_z * (z - s) + beside_z * ((e - se) + (w - sw));
-        let flux_n = straight_z * (t - z) + beside_z * ((ne - e) + (nw - w));
-        let phi_w = keep0[i] * px0[i] + gain0[i] * (zj - edge0[i]) * flux_w;
-        let phi_e = keep1[i] * px1[i] + gain1[i] * (zj - edge1[i]) * flux_e;
-        let phi_s = a_s * pz0[i] + r_s * (node[i] - e_s) * flux_s;
-        let phi_n = a_n * pz1[i] + r_n * (node[i] - e_n) * flux_n;
-        let plain = (flux_e - flux_w) + (flux_n - flux_s);
-        let layer = ((phi_e + px1[i]) - (phi_w + px0[i])) + ((phi_n + pz1[i]) - (phi_s + pz0[i]));
-        let still = rate * (1.0 - 0.5 * node[i]) * (z - old[i]) - node[i] * zj * z;
-        let next = flush(z + scale * node_gain[i] * (still + (plain + 0.5 * layer)));
-        old[i] = next;
-        note(&mut most[i], next);
-        phi_x[i] = flush(phi_w);
-        phi_z[i] = flush(phi_s);
+    let vectors = n / Vector::<S>::LEN * Vector::<S>::LEN;
+    let mut i = 0;
+    while i < vectors {
+        layer_cells(At::<Vector<S>> { make: simd, i }, [old, phi_x, phi_z], most, r, k);
+        i += Vector::<S>::LEN;
     }
+    for i in vectors..n {
+        layer_cells(At::<f32> { make: (), i }, [old, phi_x, phi_z], most, r, k);
+    }
+}
+
+#[inline(always)]
+fn layer_cells<L: Lanes>(
+    at: At<L>,
+    [old, phi_x, phi_z]: [&mut [f32]; 3],
+    most: &mut [f32],
+    r: &LayerRow,
+    k: &Coefficients,
+) {
+    let (straight_x, straight_z) = (at.all(k.straight[0]), at.all(k.straight[1]));
+    let (beside_x, beside_z) = (at.all(k.beside[0]), at.all(k.beside[1]));
+    let (sw, s, se) = (at.get(r.below, 0), at.get(r.below, 1), at.get(r.below, 2));
+    let (w, z, e) = (at.get(r.row, 0), at.get(r.row, 1), at.get(r.row, 2));
+    let (nw, n, ne) = (at.get(r.above, 0), at.get(r.above, 1), at.get(r.above, 2));
+    let flux_w = straight_x * (z - w) + beside_x * ((n - nw) + (s - sw));
+    let flux_e = straight_x * (e - z) + beside_x * ((ne - n) + (se - s));
+    let flux_s = straight_z * (z - s) + beside_z * ((e - se) + (w - sw));
+    let flux_n = straight_z * (n - z) + beside_z * ((ne - e) + (nw - w));
+    let scale = at.all(r.node_z[1] / (1.0 + k.damping));
+    let rate = at.all((1.0 - k.damping) * (1.0 - 0.5 * r.node_z[0]));
+    let before = at.get(old, 0);
+    let (layer, [phi_w, phi_s]) = layer(at, r, [flux_w, flux_e, flux_s, flux_n]);
+    let plain = (flux_e - flux_w) + (flux_n - flux_s);
+    let node = at.get(r.node, 0);
+    let still = rate * (at.all(1.0) - at.all(0.5) * node) * (z - before) - node * at.all(r.node_z[0]) * z;
+    let next = (z + scale * at.get(r.node_gain, 0) * (still + (plain + at.all(0.5) * layer))).flushed();
+    next.store(old, at.i);
+    next.note(most, at.i);
+    phi_w.flushed().store(phi_x, at.i);
+    phi_s.flushed().store(phi_z, at.i);
+}
+
+/// Twice div(phibar), and phi on the west and south edges, from the fluxes through the west, east, south and north edges.
+#[inline(always)]
+pub(crate) fn layer<L: Lanes>(at: At<L>, r: &LayerRow, [west, east, south, north]: [L; 4]) -> (L, [L; 2]) {
+    let (w, e) = (at.get(r.phi_x, 0), at.get(r.phi_x, 1));
+    let (s, n) = (at.get(r.phi_z[0], 0), at.get(r.phi_z[1], 0));
+    let (phi_w, phi_e) = (along(at, r, 0, w, west), along(at, r, 1, e, east));
+    let (phi_s, phi_n) = (across(at, r, 0, s, south), across(at, r, 1, n, north));
+    (((phi_e + e) - (phi_w + w)) + ((phi_n + n) - (phi_s + s)), [phi_w, phi_s])
+}
+
+/// phi on the edge before (0) or after (1) the cells along x.
+#[inline(always)]
+fn along<L: Lanes>(at: At<L>, r: &LayerRow, edge: usize, phi: L, flux: L) -> L {
+    at.get(r.keep, edge) * phi + at.get(r.gain, edge) * (at.all(r.node_z[0]) - at.get(r.edge, edge)) * flux
+}
+
+/// phi on the edge before (0) or after (1) the row.
+#[inline(always)]
+fn across<L: Lanes>(at: At<L>, r: &LayerRow, edge: usize, phi: L, flux: L) -> L {
+    let [e, gain, keep] = r.edge_z[edge];
+    at.all(keep) * phi + at.all(gain) * (at.get(r.node, 0) - at.all(e)) * flux
 }
 
 /// phi on an edge between a last cell and the zero ring: `before` are the heights of that cell and of its neighbours

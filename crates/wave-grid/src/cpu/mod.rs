@@ -6,6 +6,9 @@ pub(crate) mod draw;
 pub(crate) mod foam;
 pub(crate) mod ghosts;
 pub(crate) mod kernels;
+pub(crate) mod lanes;
+#[cfg(test)]
+mod levels;
 pub(crate) mod mixed;
 pub(crate) mod plain;
 pub(crate) mod sample;

@@ -74,21 +74,28 @@ impl Block<'_> {
         law: &PlainLaw,
     ) {
         let law = Law::<S, NINE, DAMPED, FAINT>::new(simd, law);
-        let window = self.x.start - 1..self.x.end + 1;
-        let most = &mut most[window.clone()];
-        let row = |j: usize| &self.z[j * self.nx..(j + 1) * self.nx][window.clone()];
-        let mut j = self.first;
-        let end = self.first + self.rows;
-        let mut olds = old.chunks_exact_mut(self.nx);
+        let (nx, x) = (self.nx, &self.x);
+        let most = &mut most[x.start - 1..x.end + 1];
+        let (mut j, end) = (self.first, self.first + self.rows);
+        let mut old = old;
         while j + ROWS <= end {
-            let z = std::array::from_fn(|r| row(j + r - 1));
-            let old = std::array::from_fn(|_| olds.next().map_or(&mut [][..], |row| &mut row[window.clone()]));
-            law.rows::<ROWS>(z, old, most);
-            j += ROWS;
+            let (four, rest) = old.split_at_mut(ROWS * nx);
+            let (low, high) = four.split_at_mut(2 * nx);
+            let ((a, b), (c, d)) = (low.split_at_mut(nx), high.split_at_mut(nx));
+            let of = |j: usize| j * nx + x.start - 1..j * nx + x.end + 1;
+            let (own, z) = (of(0), self.z);
+            let z = [&z[of(j - 1)], &z[of(j)], &z[of(j + 1)], &z[of(j + 2)], &z[of(j + 3)], &z[of(j + 4)]];
+            let four = [&mut a[own.clone()], &mut b[own.clone()], &mut c[own.clone()], &mut d[own]];
+            law.rows::<ROWS>(z, four, most);
+            (old, j) = (rest, j + ROWS);
         }
-        for (j, old) in (j..end).zip(olds) {
-            let [a, b, c] = [j - 1, j, j + 1].map(row);
-            law.rows::<1>([a, b, c, c, c, c], [&mut old[window.clone()]], most);
+        while j < end {
+            let (one, rest) = old.split_at_mut(nx);
+            let of = |j: usize| j * nx + x.start - 1..j * nx + x.end + 1;
+            let (own, z) = (of(0), self.z);
+            let north = &z[of(j + 1)];
+            law.rows::<1>([&z[of(j - 1)], &z[of(j)], north, north, north, north], [&mut one[own]], most);
+            (old, j) = (rest, j + 1);
         }
     }
 }
@@ -124,12 +131,16 @@ impl<S: Simd, const NINE: bool, const DAMPED: bool, const FAINT: bool> Law<S, NI
     fn rows<const R: usize>(&self, z: [&[f32]; ROWS + 2], mut old: [&mut [f32]; R], most: &mut [f32]) {
         let lanes = S::f32s::LEN;
         let len = most.len();
-        let z = z.map(|row| &row[..len]);
-        let mut old = old.each_mut().map(|row| &mut row[..len]);
+        let [a, b, c, d, e, f] = z;
+        let z = [&a[..len], &b[..len], &c[..len], &d[..len], &e[..len], &f[..len]];
+        for row in &old {
+            // Known to the compiler from here on.
+            assert_eq!(row.len(), len);
+        }
         if len < lanes + 2 {
             for i in 0..len.saturating_sub(2) {
                 for r in 0..R {
-                    let next = self.one([z[r], z[r + 1], z[r + 2]].map(|row| &row[i..i + 3]), old[r][i + 1]);
+                    let next = self.one([&z[r][i..i + 3], &z[r + 1][i..i + 3], &z[r + 2][i..i + 3]], old[r][i + 1]);
                     old[r][i + 1] = next;
                     super::kernels::note(&mut most[i + 1], next);
                 }
@@ -138,34 +149,44 @@ impl<S: Simd, const NINE: bool, const DAMPED: bool, const FAINT: bool> Law<S, NI
         }
         // The last vector overlaps the one before: it is made first, of what is still old.
         let last = len - lanes - 2;
-        let ending = self.vector(last, z, old.each_ref().map(|row| &**row));
+        let ending = self.vector(last, &z, &old);
         let mut i = 0;
         while i + lanes + 2 <= len {
-            let next = self.vector(i, z, old.each_ref().map(|row| &**row));
+            let next = self.vector(i, &z, &old);
             self.store(i, next, &mut old, most);
             i += lanes;
         }
         self.store(last, ending, &mut old, most);
     }
 
+    /// Cells from `i + by` on. Every slice is cut at the same place first, so that one check does for all.
+    #[inline(always)]
+    fn cut(&self, row: &[f32], i: usize, by: usize) -> S::f32s {
+        let lanes = S::f32s::LEN;
+        S::f32s::from_slice(self.simd, &row[i..i + lanes + 2][by..by + lanes])
+    }
+
+    /// The sum of the cells before and after.
+    #[inline(always)]
+    fn beside(&self, row: &[f32], i: usize) -> S::f32s {
+        self.cut(row, i, 0) + self.cut(row, i, 2)
+    }
+
     /// The next values of a vector of columns in each row.
     #[inline(always)]
-    fn vector<const R: usize>(&self, i: usize, z: [&[f32]; ROWS + 2], old: [&[f32]; R]) -> [S::f32s; R] {
-        let lanes = S::f32s::LEN;
-        // Every slice is cut at the same place, so that one check does for all.
-        let cut = |row: &'_ [f32], by: usize| S::f32s::from_slice(self.simd, &row[i..i + lanes + 2][by..by + lanes]);
-        let beside = |row: &[f32], needed: bool| if needed { cut(row, 0) + cut(row, 2) } else { self.middle };
-        let (mut south, mut here) = (cut(z[0], 1), cut(z[1], 1));
-        let (mut beside_south, mut beside_here) = (beside(z[0], NINE), beside(z[1], true));
-        let mut next = [self.middle; R];
+    fn vector<const R: usize>(&self, i: usize, z: &[&[f32]; ROWS + 2], old: &[&mut [f32]; R]) -> [S::f32s; R] {
+        let (mut south, mut here) = (self.cut(z[0], i, 1), self.cut(z[1], i, 1));
+        let mut beside_south = if NINE { self.beside(z[0], i) } else { south };
+        let mut beside_here = self.beside(z[1], i);
+        let mut next = [south; R];
         for r in 0..R {
-            let north = cut(z[r + 2], 1);
-            let beside_north = beside(z[r + 2], NINE || r + 1 < R);
+            let north = self.cut(z[r + 2], i, 1);
+            let beside_north = if NINE || r + 1 < R { self.beside(z[r + 2], i) } else { north };
             let mut sum = self.edge[0] * beside_here + self.edge[1] * (south + north);
             if NINE {
                 sum += self.corner * (beside_south + beside_north);
             }
-            let before = cut(old[r], 1);
+            let before = self.cut(old[r], i, 1);
             let before = if DAMPED { self.keep * before } else { before };
             next[r] = (sum - before) + self.middle * here;
             (south, here, beside_south, beside_here) = (here, north, beside_here, beside_north);

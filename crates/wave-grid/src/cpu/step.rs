@@ -8,7 +8,8 @@ use fearless_simd::{Level, Simd, dispatch};
 use crate::border::Axis;
 use crate::cpu::band::Band;
 use crate::cpu::kernels::{Coefficients, LayerRow, layer_row, rim_phi};
-use crate::cpu::mixed::{GroundRow, lesser, mixed_layer_row, mixed_row};
+use crate::cpu::lanes::Lanes;
+use crate::cpu::mixed::{GroundRow, mixed_layer_row, mixed_row};
 use crate::cpu::plain::Block;
 use crate::cpu::tiles::{Class, Mode, Tile, Tiles};
 use crate::desc::MOST_CELLS;
@@ -147,14 +148,14 @@ impl Run<'_> {
                 continue;
             }
             if j <= w || j >= nz - 1 - w || inner.is_empty() {
-                self.layer(j, start..end, band, most, s);
+                self.layer(simd, j, start..end, band, most, s);
             } else {
-                self.layer(j, start..inner.start, band, most, s);
-                self.layer(j, inner.end..end, band, most, s);
+                self.layer(simd, j, start..inner.start, band, most, s);
+                self.layer(simd, j, inner.end..end, band, most, s);
                 if let Some(cells) = self.ground {
                     let z = [j - 1, j, j + 1].map(|row| &s.z[row * nx + inner.start - 1..row * nx + inner.end + 1]);
                     let old = &mut band.old_row(j)[inner.clone()];
-                    mixed_row(old, &mut most[inner.clone()], z, &ground_row(cells, j, inner.clone()));
+                    mixed_row(simd, old, &mut most[inner.clone()], z, &ground_row(cells, j, inner.clone()));
                 }
             }
             if self.x.end == nx {
@@ -170,7 +171,7 @@ impl Run<'_> {
 
     /// Cells `x` of row `j`, in the layer.
     #[inline(always)]
-    fn layer(&self, j: usize, x: Range<usize>, band: &mut Band, most: &mut [f32], s: &Shared) {
+    fn layer<S: Simd>(&self, simd: S, j: usize, x: Range<usize>, band: &mut Band, most: &mut [f32], s: &Shared) {
         if x.is_empty() {
             return;
         }
@@ -192,11 +193,11 @@ impl Run<'_> {
             node_z: [across.node[j], across.node_gain[j]],
             edge_z: [j, j + 1].map(|j| [across.edge[j], across.gain[j], across.keep[j]]),
         };
-        let [old, phi_x, phi_z] = band.rows(j).map(|row| &mut row[x.clone()]);
+        let out = band.rows(j).map(|row| &mut row[x.clone()]);
         let most = &mut most[x.clone()];
         match self.ground {
-            Some(cells) => mixed_layer_row(old, phi_x, phi_z, most, &row, &ground_row(cells, j, x)),
-            None => layer_row(old, phi_x, phi_z, most, &row, &s.by.coefficients),
+            Some(cells) => mixed_layer_row(simd, out, most, &row, &ground_row(cells, j, x)),
+            None => layer_row(simd, out, most, &row, &s.by.coefficients),
         }
     }
 
@@ -232,7 +233,7 @@ impl Run<'_> {
         let Some(cells) = self.ground else { return [k.beside[axis], k.straight[axis], k.beside[axis]] };
         let faces = &cells.faces[axis];
         let here = faces[at];
-        let beside = |at: usize| cells.weights[1] * lesser(here, faces[at]);
+        let beside = |at: usize| cells.weights[1] * here.lesser(faces[at]);
         [beside(at - step), cells.own[axis][at], beside(at + step)]
     }
 }

@@ -1,0 +1,48 @@
+//! The same bits on every machine and any number of threads. What vector units do is tested beside the inner loops.
+
+mod scenario;
+
+use rayon::prelude::*;
+use wave_grid::{GridDesc, WaveGrid};
+
+/// Hashes of [`scenario::grids`] after [`TICKS`] ticks, wherever this runs.
+const HASHES: [u64; 6] = [
+    0xfea01dbfbfd56957,
+    0xeb2b9bd090de981b,
+    0x4dd2d1e1bec24565,
+    0x1808b61ff8fee1f9,
+    0xe5cc2907a128453b,
+    0xb2207462cbd7cc65,
+];
+const TICKS: u32 = 240;
+
+#[test]
+fn bits_are_the_same_on_every_machine() {
+    let hashes: Vec<u64> = scenario::grids()
+        .into_par_iter()
+        .map(|mut grid| {
+            scenario::run(&mut grid, 0..TICKS);
+            assert!(grid.is_finite() && !grid.is_asleep());
+            grid.hash()
+        })
+        .collect();
+    assert_eq!(hashes, HASHES, "{hashes:#x?}");
+}
+
+#[test]
+fn bits_do_not_depend_on_the_number_of_threads() {
+    let hashes = [1, 2, 3].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            // Enough tiles for several threads.
+            let desc = GridDesc { cells: [416, 400], wave_speed: 25.0, ..Default::default() };
+            let mut grid = WaveGrid::new(desc).unwrap();
+            grid.set_medium(Some(std::sync::Arc::new(scenario::Harbour)));
+            grid.set_tile_skipping(false);
+            scenario::run(&mut grid, 0..60);
+            assert!(grid.active_tiles() > 600);
+            grid.hash()
+        })
+    });
+    assert_eq!(hashes, [hashes[0]; 3]);
+}
