@@ -6,7 +6,7 @@ use glam::{DVec2, Vec2};
 use wave_grid::{CellKind, GridDesc, Medium, MediumCell, Scheme, Source, WaveGrid};
 
 /// A bed, a lossy strip, walls and held water on part of the plane, by arithmetic only.
-pub struct Harbour;
+pub(crate) struct Harbour;
 
 impl Medium for Harbour {
     fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
@@ -28,7 +28,7 @@ impl Medium for Harbour {
 }
 
 /// What happens before tick `t`: the window moves in circles of squares, stones fall for `active` ticks.
-pub fn disturb(grid: &mut WaveGrid, t: u32, active: u32) {
+pub(crate) fn disturb(grid: &mut WaveGrid, t: u32, active: u32) {
     let side = |t: u32| 0.3 * f64::from(t % 60) / 30.0;
     let at = (0..=t).fold(DVec2::ZERO, |at, t| {
         at + if t / 60 % 2 == 0 { DVec2::new(0.4, side(t)) } else { DVec2::new(-0.3, -0.8 * side(t)) }
@@ -44,7 +44,7 @@ pub fn disturb(grid: &mut WaveGrid, t: u32, active: u32) {
 }
 
 /// Grids of both schemes, with one and several sub-steps and with oblong cells; without a medium and with one.
-pub fn grids() -> Vec<WaveGrid> {
+pub(crate) fn grids() -> Vec<WaveGrid> {
     let nine = GridDesc { cells: [176, 144], wave_speed: 25.0, ..Default::default() };
     let five = GridDesc { scheme: Scheme::FivePoint, damping: 0.2, wave_speed: 40.0, ..nine };
     let oblong = GridDesc { cells: [150, 101], cell_size: [0.7, 0.5], ..nine };
@@ -60,7 +60,7 @@ pub fn grids() -> Vec<WaveGrid> {
 }
 
 /// Runs ticks `first..last`.
-pub fn run(grid: &mut WaveGrid, ticks: std::ops::Range<u32>) {
+pub(crate) fn run(grid: &mut WaveGrid, ticks: std::ops::Range<u32>) {
     for t in ticks {
         disturb(grid, t, 120);
         grid.tick();
