@@ -4,11 +4,12 @@ use floating_body::{BodyDesc, Controls, Hull, Radiation};
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
     BodyId, BodyState, BodyStates, Follow, GridDesc, Look, OpenWater, OpenWaterDesc, Preset, Wake, WakesDesc,
-    WaterSample,
+    WaterSample, WaveGrid,
 };
+use wave_grid::{GridSample, Source};
 
 use crate::{
-    evidence::{Axis, Case, CaseError, Context, Plot, Row, measure},
+    evidence::{Axis, Case, CaseError, Context, Plot, Row, measure, measure_together},
     fixtures::FRAME,
 };
 
@@ -100,7 +101,7 @@ impl Crossing {
     }
 }
 
-fn handover(_: &Context) -> Result<Vec<Row>, CaseError> {
+fn handover(context: &Context) -> Result<Vec<Row>, CaseError> {
     let mut parts = Crossing::new(&[(-12.0, 256), (20.0, 256)])?;
     let mut whole = Crossing::new(&[(4.0, 512)])?;
     let first = loop {
@@ -128,8 +129,42 @@ fn handover(_: &Context) -> Result<Vec<Row>, CaseError> {
         |variant: &str| Row::new("handover", variant).param("ticks_after", after).param("rms_mm", (size * 1e3).round());
     Ok(vec![
         row("waves of both grids").error(100.0 * error / size, "%", "one large grid; rms over rms").bound(0.1),
+        resampling(context)?,
         row("vertical force").error(f64::from(worst) * 100.0, "% of weight", "one large grid; worst tick").bound(0.01),
     ])
+}
+
+/// A ring that goes over to cells twice as large.
+fn resampling(context: &Context) -> Result<Row, CaseError> {
+    let fine = wave_grid::GridDesc { cells: [512; 2], cell_size: [0.125; 2], wave_speed: 6.2, ..Default::default() };
+    let coarse = wave_grid::GridDesc { cells: [256; 2], cell_size: [0.25; 2], ..fine };
+    let (mut from, mut to) = (WaveGrid::new(fine)?, WaveGrid::new(coarse)?);
+    from.add(Source::Displacement { center: Vec2::new(1.3, -2.1), radius: 1.5, volume: 1.0 });
+    for _ in 0..120 {
+        from.tick();
+    }
+    to.resample(&from);
+    let points: Vec<Vec2> =
+        (0..4000u16).map(|i| Vec2::from_angle(f32::from(i) * 2.399_963) * 0.3 * f32::from(i).sqrt()).collect();
+    let read = |grid: &WaveGrid| {
+        let mut out = vec![GridSample::default(); points.len()];
+        grid.sample(&points, &mut out);
+        out
+    };
+    let (before, after) = (read(&from), read(&to));
+    let most = |values: &mut dyn Iterator<Item = f32>| values.fold(0.0f32, |most, v| most.max(v.abs()));
+    let highest = most(&mut before.iter().map(|sample| sample.height));
+    let step = most(&mut before.iter().zip(&after).map(|(a, b)| a.height - b.height)) / highest;
+    from.set_tile_skipping(false);
+    let mut other = from.clone();
+    let [taken, ticked] = measure_together(context.effort, [&mut || to.resample(&from), &mut || other.tick()]);
+    Ok(Row::new("handover", "to cells twice as large")
+        .param("cells", 512)
+        .param("volume_kept_ppm", ((to.volume() / from.volume() - 1.0) * 1e8).round() / 100.0)
+        .error(f64::from(step) * 100.0, "% of highest", "the heights before; worst point")
+        .bound(1.0)
+        .time("a 256^2 grid takes over a 512^2 one", &taken)
+        .baseline("a tick of the whole 512^2 grid", &ticked))
 }
 
 /// Boats in a square of rows 30 m apart that all run along x, seen from beside the first.

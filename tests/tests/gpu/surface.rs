@@ -70,17 +70,26 @@ impl Scene {
 
 /// `surface_at` of the device at these points: height and normal.
 fn probe(context: &Context, water: &OpenWater, points: &[Vec2]) -> Vec<[f32; 4]> {
+    probe_group(context, water.surface_layout().unwrap(), water.surface_bind_group().unwrap(), points)
+}
+
+fn probe_group(
+    context: &Context,
+    surface_layout: &wgpu::BindGroupLayout,
+    surface_group: &wgpu::BindGroup,
+    points: &[Vec2],
+) -> Vec<[f32; 4]> {
     let device = &context.device;
     let pass = &surface::PASSES[0];
     let layout = group_layout(device, "probe", wgpu::ShaderStages::COMPUTE, &[Slot::Read, Slot::ReadWrite]);
-    let pipeline = compute_pipeline(device, pass, "surface_probe", &[water.surface_layout().unwrap(), &layout], &[]);
+    let pipeline = compute_pipeline(device, pass, "surface_probe", &[surface_layout, &layout], &[]);
     let input = context.buffer(points);
     let output = context.buffer(&vec![[SENTINEL; 4]; points.len()]);
     let group = bind_group(device, "probe", &layout, &[input.as_entire_binding(), output.as_entire_binding()]);
     context.submit(|encoder| {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, water.surface_bind_group(), &[]);
+        pass.set_bind_group(0, surface_group, &[]);
         pass.set_bind_group(1, &group, &[]);
         pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
     });

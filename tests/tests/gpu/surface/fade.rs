@@ -1,4 +1,4 @@
-//! Grids that come and go: both sides fade them alike.
+//! Grids that come and go: both sides fade them alike. Grids that stand for the whole plane.
 
 use glam::{Vec2, Vec3};
 use open_water::{
@@ -6,8 +6,11 @@ use open_water::{
     WaterSample, Work,
 };
 
-use super::{DT, calm, points, probe, view};
+use open_water_shaders::surface::SurfaceGrid;
+
+use super::{DT, calm, points, probe, probe_group, view};
 use crate::context::Context;
+use crate::view_stage::{Sea, Stage};
 
 #[test]
 fn a_grid_that_fades_into_another_is_the_same_on_both_sides() {
@@ -49,5 +52,48 @@ fn a_grid_that_fades_into_another_is_the_same_on_both_sides() {
         highest = highest.max(e.height.abs());
     }
     assert!(highest > 0.1, "{highest}");
+    assert!(context.take_errors().is_empty());
+}
+
+#[test]
+fn a_tiled_grid_stands_for_the_whole_plane_and_fades_around_its_middle() {
+    let context = Context::new();
+    let cells = [66u32, 50];
+    let (cell_size, middle, reach) = (Vec2::new(0.5, 0.25), Vec2::new(40.0, -30.0), 90.0);
+    let corner = Vec2::new(-7.0, 3.0);
+    // Two waves across the period along x and one along z; the outermost ring repeats what is on the other side.
+    let period = Vec2::new(64.0, 48.0) * cell_size;
+    let wave = |p: Vec2| {
+        let turns = (p - corner) / period * std::f32::consts::TAU;
+        0.3 * (2.0 * turns.x).sin() + 0.2 * turns.y.cos()
+    };
+    let texels = (0..cells[0] * cells[1])
+        .map(|at| {
+            let cell = Vec2::new((at % cells[0]) as f32, (at / cells[0]) as f32) + 0.5;
+            [wave(corner + cell * cell_size), 0.0]
+        })
+        .collect();
+    let grid = SurfaceGrid {
+        corner: corner.into(),
+        cell_size: cell_size.into(),
+        cells,
+        gain: 0.5,
+        middle: middle.into(),
+        reach,
+        tiled: 1,
+        ..SurfaceGrid::default()
+    };
+    let stage = Stage::new(&context, &Sea { grids: vec![(grid, texels)], ..Sea::flat() });
+    let points: Vec<Vec2> =
+        (0..4000u16).map(|i| middle + Vec2::from_angle(f32::from(i) * 2.399_963) * 1.6 * f32::from(i).sqrt()).collect();
+    let found = probe_group(&context, &stage.layout, &stage.group, &points);
+    let mut seen = [0.0f32; 2];
+    for (point, f) in points.iter().zip(&found) {
+        let t = ((point.distance(middle) / reach - 0.5) / 0.5).clamp(0.0, 1.0);
+        let expected = 0.5 * wave(*point) * (1.0 - t * t * (3.0 - 2.0 * t));
+        assert!((f[0] - expected).abs() < 1e-3, "{point}: {} against {expected}", f[0]);
+        seen[usize::from(t == 1.0)] += f[0].abs();
+    }
+    assert!(seen[0] > 100.0 && seen[1] == 0.0, "{seen:?}");
     assert!(context.take_errors().is_empty());
 }
