@@ -3,8 +3,10 @@
 //! A separable cubic kernel (Catmull-Rom), as wide as the wider of the two cells. Between sizes of whole ratio, whose cells
 //! stand on the same world multiples, it gives every cell of the source the same weight in all, so the volume is kept.
 
+use std::ops::Range;
+
 use crate::WaveGrid;
-use crate::cpu::{foam::measure, ghosts};
+use crate::cpu::{foam::measure, ghosts, tiles::Mode};
 use crate::state::State;
 
 /// For one axis: of each new cell the first old cell that it reads, and their weights.
@@ -43,10 +45,10 @@ impl Taps {
     }
 }
 
-/// Reads a field of the old grid at all cells of the new one.
-fn read(field: &[f32], width: usize, [x, z]: &[Taps; 2], across: &mut Vec<f32>, out: &mut [f32]) {
+/// Reads a field of the old grid, which is zero outside `rows`, at all cells of the new one.
+fn read(field: &[f32], width: usize, rows: &Range<usize>, [x, z]: &[Taps; 2], across: &mut Vec<f32>, out: &mut [f32]) {
     across.clear();
-    for row in field.chunks_exact(width) {
+    for row in field[rows.start * width..rows.end * width].chunks_exact(width) {
         across.extend(x.0.iter().map(|(first, weights)| {
             row[*first..].iter().zip(weights).fold(0.0, |sum, (value, weight)| sum + weight * value)
         }));
@@ -54,12 +56,23 @@ fn read(field: &[f32], width: usize, [x, z]: &[Taps; 2], across: &mut Vec<f32>, 
     let n = x.0.len();
     for ((first, weights), out) in z.0.iter().zip(out.chunks_exact_mut(n)) {
         out.fill(0.0);
-        for (row, weight) in across.chunks_exact(n).skip(*first).zip(weights) {
+        let skipped = rows.start.saturating_sub(*first);
+        let lines = across.chunks_exact(n).skip(first.saturating_sub(rows.start));
+        for (row, weight) in lines.zip(weights.iter().skip(skipped)) {
             for (out, value) in out.iter_mut().zip(row) {
                 *out += weight * value;
             }
         }
     }
+}
+
+/// The rows of a grid that hold anything.
+fn rows(grid: &WaveGrid) -> Range<usize> {
+    let tiles = &grid.tiles;
+    let holds = |tz: &usize| tiles.row(*tz).iter().any(|t| t.mode != Mode::Quiet || t.height > 0.0 || t.foam > 0.0);
+    let mut held = (0..tiles.count[1]).filter(holds).map(|tz| tiles.span(1, tz));
+    let Some(first) = held.next() else { return 0..0 };
+    first.start..held.last().unwrap_or(first).end
 }
 
 impl WaveGrid {
@@ -75,6 +88,7 @@ impl WaveGrid {
         }
         let taps = [0, 1].map(|axis| Taps::new(self, from, axis));
         let width = from.state.nx;
+        let rows = rows(from);
         let before = self.older(from);
         let drawn = from.drawn_before();
         let mut across = Vec::new();
@@ -84,7 +98,7 @@ impl WaveGrid {
             (&drawn, &mut self.state.previous),
             (&from.state.foam, &mut self.state.foam),
         ] {
-            read(field, width, &taps, &mut across, out);
+            read(field, width, &rows, &taps, &mut across, out);
         }
         let (nx, nz) = (self.state.nx, self.state.nz);
         for array in [&mut self.state.z, &mut self.state.old, &mut self.state.foam] {
