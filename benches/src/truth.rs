@@ -4,6 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use ocean_spectrum::CascadeModes;
 
+pub mod diffraction;
+
 /// Gravity, m/s^2.
 pub const G: f64 = 9.81;
 

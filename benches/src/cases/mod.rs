@@ -5,11 +5,14 @@ mod energy;
 mod facade;
 mod facade_grids;
 mod grid_border;
+mod grid_gap;
 mod grid_gpu;
 mod grid_medium;
 mod grid_phase;
 mod grid_shore;
+mod grid_soak;
 mod grid_step;
+mod grid_wake;
 mod harbour;
 mod ocean_buoy;
 mod ocean_fft;
@@ -46,6 +49,8 @@ pub const CASES: &[Case] = &[
     ocean_kernel::INTERPOLATION,
     ocean_kernel::LARGEST,
     grid_phase::PHASE,
+    grid_wake::WEDGE,
+    grid_gap::DIFFRACTION,
     grid_border::PML,
     grid_border::SHIFT,
     grid_step::STEP,
@@ -67,6 +72,7 @@ pub const CASES: &[Case] = &[
     harbour::BASIN,
     harbour::GPU_VS_CPU,
     energy::ENERGY,
+    grid_soak::SOAK,
     facade::EMPTY,
     facade::TICK,
     facade_grids::HANDOVER,
