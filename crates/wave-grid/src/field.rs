@@ -74,6 +74,9 @@ impl Field {
 
 impl Clone for Field {
     fn clone(&self) -> Self {
+        if self.all.is_empty() {
+            return Self::default();
+        }
         let mut new = Self { all: vec![0.0; self.all.len()], ..*self };
         // The copy has its own place on the cache lines.
         let middle = self.middle - self.middle % LINE;
@@ -110,6 +113,11 @@ impl DerefMut for Field {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn an_empty_one_can_be_cloned() {
+        assert_eq!(Field::default().clone().len(), 0);
+    }
 
     proptest! {
         #[test]
