@@ -63,10 +63,10 @@ struct Wall {
 }
 
 impl Medium for Wall {
-    fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
+    fn at(&self, place: DVec2, _: f32) -> MediumCell {
         let [x, z] = [place.x, place.y].map(|p| (p / self.cell).floor() as i64);
         let kind = if x == self.x && !self.open.contains(&z) { CellKind::Wall } else { CellKind::Open };
-        MediumCell { speed: deep_speed, damping: 0.0, kind }
+        MediumCell { kind, ..MediumCell::default() }
     }
 
     fn is_plain(&self, low: DVec2, high: DVec2, _: f32) -> bool {

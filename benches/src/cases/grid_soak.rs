@@ -195,7 +195,7 @@ struct Bed {
 
 impl Medium for Bed {
     fn at(&self, place: DVec2, deep_speed: f32) -> MediumCell {
-        let mut cell = MediumCell { speed: deep_speed, damping: 0.0, kind: CellKind::Open };
+        let mut cell = MediumCell { speed: deep_speed, ..MediumCell::default() };
         if self.kind == MUD {
             let posts = [place.x, place.y].map(|p| (p / self.cell).floor() as i64 % 6 == 0);
             cell.damping = 4.0;
