@@ -232,3 +232,31 @@ fn ticks_survive_an_encoder_that_is_dropped() {
     let [height, _, most] = twins.compare(&context, 1.0)[0];
     assert!(most > 0.1 && height <= 1e-5 * most, "{height} of {most}");
 }
+
+#[test]
+fn bad_input_stays_bounded() {
+    let context = Context::new();
+    let descs = [
+        GridDesc { cells: [64, 80], wave_speed: 20.0, ..Default::default() },
+        GridDesc { cells: [48, 48], wave_speed: 14.0, scheme: Scheme::FivePoint, ..Default::default() },
+    ];
+    let mut twins = twins(&context, &descs);
+    let bad = [f32::NAN, f32::INFINITY, f32::MAX, -f32::MAX, -1.0, 0.0, 1e-40, 1e9];
+    let mut most = 0.0f32;
+    for t in 0..240 {
+        for k in 0..2 {
+            let value = |n: usize| if n.is_multiple_of(3) { bad[n / 3 % 8] } else { (n % 5) as f32 - 2.0 };
+            twins.add(k, stone(value(t + k), value(t / 2), value(t / 3 + 1), value(t * 7 + 2)));
+            let center = Vec2::new(value(t / 5), value(t));
+            twins.add(k, Source::Turbulence { center, radius: value(t * 3 + 1), foam: value(t * 5) });
+            twins.center_on(k, DVec2::new(f64::from(value(t / 7)), f64::from(value(t / 11 + 4))));
+        }
+        twins.tick();
+        twins.encode(&context);
+        if t % 24 == 23 {
+            // Comparing looks for what is not finite.
+            most = twins.compare(&context, 1.0).iter().fold(most, |most, of| most.max(of[2]));
+        }
+    }
+    assert!(most > 0.01 && most < 2000.0, "{most}");
+}
