@@ -7,6 +7,8 @@ mod facade_grids;
 mod grid_border;
 mod grid_gap;
 mod grid_gpu;
+mod grid_gpu_error;
+mod grid_gpu_plain;
 mod grid_medium;
 mod grid_phase;
 mod grid_shore;
@@ -54,6 +56,7 @@ pub const CASES: &[Case] = &[
     grid_border::PML,
     grid_border::SHIFT,
     grid_step::STEP,
+    grid_gpu_error::ERROR,
     grid_gpu::STEP,
     grid_gpu::TICK,
     grid_gpu::ACTIVE,
