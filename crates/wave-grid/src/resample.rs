@@ -72,7 +72,7 @@ fn rows(grid: &WaveGrid) -> Range<usize> {
     let holds = |tz: &usize| tiles.row(*tz).iter().any(|t| t.mode != Mode::Quiet || t.height > 0.0 || t.foam > 0.0);
     let mut held = (0..tiles.count[1]).filter(holds).map(|tz| tiles.span(1, tz));
     let Some(first) = held.next() else { return 0..0 };
-    first.start..held.last().unwrap_or(first).end
+    first.start..held.next_back().unwrap_or(first).end
 }
 
 impl WaveGrid {
