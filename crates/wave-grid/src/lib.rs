@@ -60,3 +60,7 @@ pub use snapshot::GridSnapshot;
 pub use source::{HEIGHT_LIMIT, Rain, Source, WaveMaker};
 pub use train::WaveTrain;
 pub use window::Window;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
