@@ -78,7 +78,7 @@ impl WaveGrid {
                 }
                 feed.correct(&mut self.state.z);
             }
-            if let (Some(carrier), Some(cells)) = (&mut self.carrier, cells) {
+            if let (Some(carrier), Some(cells)) = (&mut self.carrier, cells.filter(|cells| cells.drifts())) {
                 carrier.carry([&mut self.state.z, &mut self.state.old], &self.tiles, cells);
             }
         }
