@@ -13,6 +13,11 @@ mod grid_medium;
 mod grid_phase;
 mod grid_shore;
 mod grid_soak;
+mod grid_current;
+mod grid_medium;
+mod grid_phase;
+mod grid_shore;
+mod grid_sources;
 mod grid_step;
 mod grid_wake;
 mod harbour;
@@ -62,6 +67,12 @@ pub const CASES: &[Case] = &[
     grid_gpu::ACTIVE,
     grid_shore::SHOALING,
     grid_shore::STANDING,
+    grid_sources::VOLUME,
+    grid_sources::DROP,
+    grid_sources::MAKER,
+    grid_sources::TRAIN,
+    grid_sources::HULLS,
+    grid_current::CURRENT,
     grid_medium::PML,
     grid_medium::BOUND,
     grid_medium::COST,

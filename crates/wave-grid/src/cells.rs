@@ -155,8 +155,11 @@ impl Cells {
                     let solid = cells.clone().all(|a| *a == DEEP_WALL);
                     tile.class = if solid { Class::Solid } else { Class::Mixed };
                     tile.walls = cells.any(|a| *a == NEAR_WALL);
-                    // Also beside the tile: it shares those faces.
-                    let (columns, rows) = (widened(&columns, 1, self.nx), widened(&rows, 1, self.nz));
+                    // Also around the tile: it shares faces with those cells.
+                    let (columns, rows) = (widened(&columns, REACH, self.nx), widened(&rows, REACH, self.nz));
+                    let (a, r) = (&self.a, &self.r);
+                    let mut around = rows.clone().flat_map(|j| columns.clone().map(move |i| j * self.nx + i));
+                    tile.shut = around.any(|at| !(a[at] > 0.0 && r[at] > 0.0));
                     let mut currents = self.drift.iter().filter(|u| !u.is_empty());
                     tile.carried = currents
                         .any(|u| rows.clone().any(|j| u[j * self.nx..][columns.clone()].iter().any(|u| *u != 0.0)));

@@ -91,7 +91,7 @@ impl Ground {
         let plain = self.medium.0.is_plain(low, high, self.law.deep_speed);
         let tile = &mut tiles.tiles[tz * tiles.count[0] + tx];
         tile.class = if plain { Class::Plain } else { Class::Mixed };
-        (tile.walls, tile.carried) = (false, false);
+        (tile.walls, tile.carried, tile.shut) = (false, false, false);
     }
 
     /// Makes plain cells when a tile needs them. Returns whether there are cells.

@@ -70,7 +70,8 @@ impl WaveGrid {
         let corner = self.place.window.corner;
         if self.ground.is_none() {
             let law = CellLaw::new(&self.desc, &self.stepping);
-            self.ground = Some(Ground::new(SharedMedium(Arc::new(OpenWater)), law, corner, &mut self.tiles));
+            let ground = Ground::new(SharedMedium(Arc::new(OpenWater)), law, corner, &mut self.tiles);
+            self.ground = Some(Arc::new(ground));
         }
         self.capture();
         for cells in under.chunk_by(|a, b| a[1] == b[1]) {
@@ -79,7 +80,7 @@ impl WaveGrid {
             self.keep_around([x, z]);
         }
         let Some(ground) = &mut self.ground else { return };
-        ground.hold(under, &mut self.tiles, &mut self.state);
+        Arc::make_mut(ground).hold(under, &mut self.tiles, &mut self.state);
     }
 
     /// World cells whose centres lie within outlines, row by row, each once.
@@ -199,9 +200,22 @@ impl Ground {
             }
         }
         // What follows from the cells that changed, a tile at a time.
+        let (mut low, mut high) = ([i64::MAX; 2], [i64::MIN; 2]);
+        for cell in &changed {
+            for k in 0..2 {
+                low[k] = low[k].min(cell[k] - self.corner[k]);
+                high[k] = high[k].max(cell[k] - self.corner[k] + 1);
+            }
+        }
         for tile in tiles_of(changed.into_iter()) {
-            if let (Some((_, [x, z])), Some(cells)) = (self.tile(tile, tiles), &mut self.cells) {
-                cells.follow(tiles, &x, &z);
+            if let (Some((_, spans)), Some(cells)) = (self.tile(tile, tiles), &mut self.cells) {
+                let [x, z] = [0, 1].map(|k| {
+                    let (low, high) = (low[k].max(0) as usize, high[k].max(0) as usize);
+                    spans[k].start.max(low)..spans[k].end.min(high)
+                });
+                if !(x.is_empty() || z.is_empty()) {
+                    cells.follow(tiles, &x, &z);
+                }
             }
         }
         self.held.tiles = felt;

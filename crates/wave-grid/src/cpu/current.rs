@@ -7,6 +7,8 @@
 //! third: 0.1 and 1.5 %). Nothing is carried through walls, nor where the current fades towards the border layer, whose
 //! memory stands still.
 
+use std::ops::Range;
+
 use crate::cpu::kernels::flush;
 use crate::cpu::tiles::{Mode, Tiles};
 use crate::desc::TILE;
@@ -58,130 +60,133 @@ struct Sweep<'a> {
     fade: &'a [Vec<f32>; 2],
 }
 
-/// What a run of at most 17 faces reads: of the two cells before each and the two after it the heights, whether they
-/// are open, and of the inner two the current.
+/// Most faces of a run.
+const LANES: usize = TILE + 1;
+
+/// A run of faces: index of the first of the two cells before and the two after each, and of the inner two how much of the
+/// current is left (`share` for all of them).
 struct Faces<'a> {
-    z: [&'a [f32]; 4],
-    a: [&'a [f32]; 4],
-    r: [&'a [f32]; 4],
-    drift: [&'a [f32]; 2],
+    axis: usize,
+    at: [usize; 4],
     fade: [&'a [f32]; 2],
-    /// Of all faces, before and after.
     share: [f32; 2],
+    /// Not all cells around the tile are open.
+    shut: bool,
 }
 
-impl Sweep<'_> {
+impl<'a> Sweep<'a> {
     fn run(&self, z: &mut [f32], scratch: &mut [f32]) {
-        let Sweep { tiles, cells, .. } = *self;
-        let (nx, nz) = (cells.nx, cells.nz);
-        let carried = || {
-            let all = (0..tiles.count[1]).flat_map(|tz| (0..tiles.count[0]).map(move |tx| [tx, tz]));
-            all.filter(|[tx, tz]| {
-                let tile = tiles.row(*tz)[*tx];
-                tile.carried && tile.mode == Mode::Active
-            })
-        };
-        let spans = |[tx, tz]: [usize; 2]| {
-            let (x, z) = (tiles.span(0, tx), tiles.span(1, tz));
-            (x.start.max(REACH)..x.end.min(nx - REACH), z.start.max(REACH)..z.end.min(nz - REACH))
-        };
-        let mut flux = [[0.0f32; TILE + 1]; 2];
-        for tile in carried() {
-            let (x, z_span) = spans(tile);
-            if x.is_empty() || z_span.is_empty() {
-                continue;
-            }
+        for (x, rows, shut) in self.blocks() {
             // With the rows that the sweep along z reads.
-            for j in z_span.start - REACH..z_span.end + REACH {
-                let n = x.len();
-                self.fluxes(&mut flux[0][..n + 1], &self.along_x(z, j, x.start, n + 1));
-                let row = j * nx + x.start..j * nx + x.end;
-                let (out, z, flux) = (&mut scratch[row.clone()], &z[row], &flux[0]);
-                for i in 0..n {
-                    out[i] = z[i] - (flux[i + 1] - flux[i]);
-                }
+            for j in rows.start - REACH..rows.end + REACH {
+                self.row(z, scratch, j, x.clone(), shut);
             }
         }
-        for tile in carried() {
-            let (x, z_span) = spans(tile);
-            if x.is_empty() || z_span.is_empty() {
-                continue;
-            }
-            let n = x.len();
+        for (x, rows, shut) in self.blocks() {
+            self.column(z, scratch, x, rows, shut);
+        }
+    }
+
+    /// Cells of the tiles that have a current, and whether there are walls around.
+    fn blocks(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>, bool)> + 'a {
+        let Self { tiles, cells, .. } = *self;
+        let within = |span: Range<usize>, n: usize| span.start.max(REACH)..span.end.min(n - REACH);
+        let all = (0..tiles.count[1]).flat_map(|tz| (0..tiles.count[0]).map(move |tx| [tx, tz]));
+        all.filter_map(move |[tx, tz]| {
+            let tile = tiles.row(tz)[tx];
+            let (x, z) = (within(tiles.span(0, tx), cells.nx), within(tiles.span(1, tz), cells.nz));
+            let carried = tile.carried && tile.mode == Mode::Active && !x.is_empty() && !z.is_empty();
+            carried.then_some((x, z, tile.shut))
+        })
+    }
+
+    fn row(&self, z: &[f32], out: &mut [f32], j: usize, x: Range<usize>, shut: bool) {
+        let (n, at) = (x.len(), j * self.cells.nx + x.start);
+        let [before, after] = [x.start - 1, x.start].map(|i| &self.fade[0][i..i + n + 1]);
+        let share = [self.fade[1][j]; 2];
+        let mut flux = [0.0; LANES];
+        let faces = Faces { axis: 0, at: [at - 2, at - 1, at, at + 1], fade: [before, after], share, shut };
+        self.fluxes(&mut flux[..n + 1], z, &faces);
+        let (out, z, low, high) = (&mut out[at..at + n], &z[at..at + n], &flux[..n], &flux[1..n + 1]);
+        for i in 0..n {
+            out[i] = z[i] - (high[i] - low[i]);
+        }
+    }
+
+    fn column(&self, out: &mut [f32], z: &[f32], x: Range<usize>, rows: Range<usize>, shut: bool) {
+        let (n, nx) = (x.len(), self.cells.nx);
+        let fade = &self.fade[0][x.clone()];
+        let mut flux = [[0.0; LANES]; 2];
+        let below_row = |flux: &mut [f32], j: usize| {
+            let at = j * nx + x.start;
+            let share = [self.fade[1][j - 1], self.fade[1][j]];
+            let at = [at - 2 * nx, at - nx, at, at + nx];
+            self.fluxes(flux, z, &Faces { axis: 1, at, fade: [fade; 2], share, shut });
+        };
+        below_row(&mut flux[0][..n], rows.start);
+        for j in rows {
             let [below, above] = &mut flux;
-            self.fluxes(&mut below[..n], &self.along_z(scratch, z_span.start, x.start, n));
-            for j in z_span {
-                self.fluxes(&mut above[..n], &self.along_z(scratch, j + 1, x.start, n));
-                let row = j * nx + x.start..j * nx + x.end;
-                let (out, z) = (&mut z[row.clone()], &scratch[row]);
-                for i in 0..n {
-                    out[i] = flush(z[i] - (above[i] - below[i]));
-                }
-                std::mem::swap(below, above);
+            below_row(&mut above[..n], j + 1);
+            let at = j * nx + x.start;
+            let (out, z, low, high) = (&mut out[at..at + n], &z[at..at + n], &below[..n], &above[..n]);
+            for i in 0..n {
+                out[i] = flush(z[i] - (high[i] - low[i]));
             }
-        }
-    }
-
-    /// Faces `i..i + n` of row `j` along x.
-    fn along_x<'b>(&'b self, z: &'b [f32], j: usize, i: usize, n: usize) -> Faces<'b> {
-        let cells = self.cells;
-        let at = j * cells.nx + i;
-        let around = [0, 1, 2, 3].map(|k| at + k - 2..at + k - 2 + n);
-        let fade = self.fade[1][j];
-        Faces {
-            z: around.clone().map(|at| &z[at]),
-            a: around.clone().map(|at| &cells.a[at]),
-            r: around.clone().map(|at| &cells.r[at]),
-            drift: [1, 2].map(|k: usize| &cells.drift[0][around[k].clone()]),
-            fade: [&self.fade[0][i - 1..i - 1 + n], &self.fade[0][i..i + n]],
-            share: [fade; 2],
-        }
-    }
-
-    /// Faces below row `j` of columns `i..i + n`.
-    fn along_z<'b>(&'b self, z: &'b [f32], j: usize, i: usize, n: usize) -> Faces<'b> {
-        let cells = self.cells;
-        let around = [0, 1, 2, 3].map(|k| {
-            let at = (j + k - 2) * cells.nx + i;
-            at..at + n
-        });
-        let fade = &self.fade[0][i..i + n];
-        Faces {
-            z: around.clone().map(|at| &z[at]),
-            a: around.clone().map(|at| &cells.a[at]),
-            r: around.clone().map(|at| &cells.r[at]),
-            drift: [1, 2].map(|k: usize| &cells.drift[1][around[k].clone()]),
-            fade: [fade; 2],
-            share: [self.fade[1][j - 1], self.fade[1][j]],
+            flux.swap(0, 1);
         }
     }
 
     /// What flows through each face within a sub-step, in units of a cell's height.
-    fn fluxes(&self, out: &mut [f32], f: &Faces) {
-        let n = out.len().min(TILE + 1);
-        let out = &mut out[..n];
-        let [z0, z1, z2, z3] = f.z.map(|z| &z[..n]);
-        let [a0, a1, a2, a3] = f.a.map(|a| &a[..n]);
-        let [r0, r1, r2, r3] = f.r.map(|r| &r[..n]);
-        let ([u1, u2], [f1, f2]) = (f.drift.map(|u| &u[..n]), f.fade.map(|f| &f[..n]));
-        for i in 0..n {
-            // Whether water moves in a cell: a > 0 and r > 0.
-            let open = |a: &[f32], r: &[f32]| if a[i] < r[i] { a[i] } else { r[i] } > 0.0;
-            let v = 0.5 * (u1[i] * f1[i] * f.share[0] + u2[i] * f2[i] * f.share[1]);
-            let v = if open(a1, r1) && open(a2, r2) { v } else { 0.0 };
-            let (low, high) = (z1[i], z2[i]);
-            // At a wall the water goes on evenly, and no current piles it up.
-            let (wet_before, wet_after) = (open(a0, r0), open(a3, r3));
-            let v = if wet_before && wet_after { v } else { v.clamp(-AT_WALLS, AT_WALLS) };
-            let before = if wet_before { z0[i] } else { low };
-            let after = if wet_after { z3[i] } else { high };
-            let (sum, jump) = (low + high, high - low);
-            let (outer_sum, outer_jump) = (before + after, after - before);
-            let c1 = (7.0 * sum - outer_sum) * (1.0 / 12.0);
-            let c2 = (15.0 * jump - outer_jump) * (1.0 / 24.0);
-            let c3 = (outer_sum - sum) * (1.0 / 12.0);
-            let c4 = (outer_jump - 3.0 * jump) * (1.0 / 24.0);
-            out[i] = v * (c1 - v * (c2 - v * (c3 - v * c4)));
+    fn fluxes(&self, out: &mut [f32], z: &[f32], faces: &Faces) {
+        let n = out.len();
+        let &Faces { axis, at, fade, share, shut } = faces;
+        let drift = &self.cells.drift[axis];
+        let z = at.map(|at| &z[at..at + n]);
+        let mut v = [0.0; LANES];
+        let v = &mut v[..n];
+        drifts(v, [at[1], at[2]].map(|at| &drift[at..at + n]), fade, share);
+        if !shut {
+            return quartic(out, v, z);
         }
+        let Cells { a, r, .. } = self.cells;
+        let (mut before, mut after) = ([0.0; LANES], [0.0; LANES]);
+        for i in 0..n {
+            let open = at.map(|at| a[at + i] > 0.0 && r[at + i] > 0.0);
+            // At a wall the water goes on evenly, and no current piles it up.
+            before[i] = z[usize::from(!open[0])][i];
+            after[i] = z[3 - usize::from(!open[3])][i];
+            if !(open[1] && open[2]) {
+                v[i] = 0.0;
+            } else if !(open[0] && open[3]) {
+                v[i] = v[i].clamp(-AT_WALLS, AT_WALLS);
+            }
+        }
+        quartic(out, v, [&before[..n], z[1], z[2], &after[..n]]);
+    }
+}
+
+/// The current at faces: the mean of the cells' beside them.
+#[inline(never)]
+fn drifts(v: &mut [f32], drift: [&[f32]; 2], fade: [&[f32]; 2], share: [f32; 2]) {
+    let n = v.len();
+    let ([u1, u2], [f1, f2]) = (drift.map(|u| &u[..n]), fade.map(|f| &f[..n]));
+    for i in 0..n {
+        v[i] = 0.5 * (u1[i] * f1[i] * share[0] + u2[i] * f2[i] * share[1]);
+    }
+}
+
+/// The flux of a current `v` through faces with two cells before and two after.
+#[inline(never)]
+fn quartic(out: &mut [f32], v: &[f32], z: [&[f32]; 4]) {
+    let n = out.len();
+    let (v, [z0, z1, z2, z3]) = (&v[..n], z.map(|z| &z[..n]));
+    for i in 0..n {
+        let (v, sum, jump) = (v[i], z1[i] + z2[i], z2[i] - z1[i]);
+        let (outer_sum, outer_jump) = (z0[i] + z3[i], z3[i] - z0[i]);
+        let c1 = (7.0 * sum - outer_sum) * (1.0 / 12.0);
+        let c2 = (15.0 * jump - outer_jump) * (1.0 / 24.0);
+        let c3 = (outer_sum - sum) * (1.0 / 12.0);
+        let c4 = (outer_jump - 3.0 * jump) * (1.0 / 24.0);
+        out[i] = v * (c1 - v * (c2 - v * (c3 - v * c4)));
     }
 }

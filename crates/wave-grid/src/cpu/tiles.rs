@@ -52,6 +52,8 @@ pub(crate) struct Tile {
     pub(crate) carried: bool,
     /// `previous` holds its heights as drawn for the tick before; otherwise they are where [`crate::WaveGrid::draw`] says.
     pub(crate) kept: bool,
+    /// A cell of it or within two cells of it is no open water.
+    pub(crate) shut: bool,
 }
 
 impl Tile {
@@ -227,7 +229,13 @@ impl Tiles {
         self.offset = offset;
         self.active = 0;
         for tile in &mut self.tiles {
-            *tile = Tile { class: tile.class, walls: tile.walls, carried: tile.carried, ..Tile::default() };
+            *tile = Tile {
+                class: tile.class,
+                walls: tile.walls,
+                carried: tile.carried,
+                shut: tile.shut,
+                ..Tile::default()
+            };
         }
     }
 }
