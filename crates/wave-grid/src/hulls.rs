@@ -221,10 +221,10 @@ impl Ground {
         self.held.tiles = felt;
         // What lies deep in a hull has no heights, whatever the hull did before.
         for Under { cell, .. } in &self.held.cells {
-            if let (Some(at), Some(cells)) = (self.index(*cell, tiles), &self.cells) {
-                if cells.a[at] == DEEP_WALL {
-                    (state.z[at], state.old[at]) = (0.0, 0.0);
-                }
+            if let (Some(at), Some(cells)) = (self.index(*cell, tiles), &self.cells)
+                && cells.a[at] == DEEP_WALL
+            {
+                (state.z[at], state.old[at]) = (0.0, 0.0);
             }
         }
     }
