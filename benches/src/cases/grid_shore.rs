@@ -142,7 +142,7 @@ fn shoaling(context: &Context) -> Result<Vec<Row>, CaseError> {
                     .param("deep_cells_per_wavelength", cells_per_wave)
                     .param("growth", round(growth))
                     .error(100.0 * (growth / SQRT_2 - 1.0).abs(), "%", "Green's law, a fourth root of 4")
-                    .bound(if cells_per_wavelength < 40.0 { 2.0 } else { 1.0 }),
+                    .bound(if cells_per_wave < 40.0 { 2.0 } else { 1.0 }),
             );
         }
     }

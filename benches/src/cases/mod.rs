@@ -14,6 +14,7 @@ mod grid_phase;
 mod grid_shore;
 mod grid_soak;
 mod grid_current;
+mod grid_gpu;
 mod grid_medium;
 mod grid_phase;
 mod grid_shore;
