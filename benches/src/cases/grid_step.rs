@@ -2,10 +2,11 @@
 
 use std::hint::black_box;
 
+use rayon::prelude::*;
 use wave_grid::{GridDesc, Scheme, WaveGrid};
 
 use crate::{
-    evidence::{Axis, Case, CaseError, Context, Plot, Row, limits, measure_together},
+    evidence::{Axis, Case, CaseError, Context, Effort, Plot, Row, Timing, measure_together},
     fixtures,
 };
 
@@ -26,31 +27,81 @@ pub(super) const STEP: Case = Case {
 /// Ticks before heights are compared; the border reaches this many cells inwards.
 const TICKS: usize = 32;
 
+/// Heights at which no foam is made, metres.
+const LOW: f32 = 1e-4;
+
 fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
     let mut rows = Vec::new();
+    let effort = context.effort;
     for (variant, scene) in [("9-point", fixtures::grid()), ("5-point", fixtures::paper_grid())] {
-        for &cells in context.pick(&[256u32, 512][..], &[128, 256, 512, 1024]) {
+        for &cells in context.pick(&[512u32][..], &[128, 256, 512, 1024]) {
             let desc = GridDesc { cells: [cells; 2], ..scene };
-            let mut grid = WaveGrid::new(desc)?;
-            grid.set_tile_skipping(false);
-            let error = against_f64(&mut grid, desc.scheme)?;
-            let mut plain = Plain::new(&grid, desc.scheme, |v| v);
-            let [ours, theirs] = measure_together(context.effort, [&mut || grid.tick(), &mut || plain.step()]);
-            // Reads the heights of now and before, writes those of the next step.
-            let bytes = 12 * (cells * cells) as usize;
-            let limit = limits::triad_ns_per_byte(context.effort, bytes, true) * bytes as f64;
-            rows.push(
-                Row::new("grid_step", variant)
-                    .param("cells", cells)
-                    .error(error, "relative RMS", "the same scheme in f64, after 32 ticks")
-                    .bound(1e-5)
-                    .time("a tick of the whole window, one sub-step, border and foam included", &ours)
-                    .baseline("a plain f32 loop over the interior on one thread", &theirs)
-                    .limit("triad over the same bytes, all threads", limit),
-            );
+            let error = against_f64(&mut WaveGrid::new(desc)?, desc.scheme)?;
+            for threads in [1, 2] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+                rows.extend(pool.install(|| ticks(effort, variant, desc, threads, error))?);
+            }
         }
     }
     Ok(rows)
+}
+
+/// Ticks of one sub-step beside the triad of the same moment, on the threads of the pool.
+fn ticks(effort: Effort, variant: &str, desc: GridDesc, threads: usize, error: f64) -> Result<Vec<Row>, CaseError> {
+    let cells = desc.cells[0];
+    let count = (cells * cells) as usize;
+    let widths = [desc.pml_width, 4];
+    let [mut grid, mut thin] = [waves(desc, widths[0])?, waves(desc, widths[1])?];
+    let mut plain = Plain::new(&grid, desc.scheme, |v| v);
+    let (b, c) = (vec![1.0f32; count], vec![2.0f32; count]);
+    let mut a = vec![0.0f32; count];
+    let chunk = count.div_ceil(threads);
+    let mut triad = || {
+        let rows = black_box(&mut a).par_chunks_mut(chunk).zip(b.par_chunks(chunk)).zip(c.par_chunks(chunk));
+        rows.for_each(|((a, b), c)| a.iter_mut().zip(b).zip(c).for_each(|((a, b), c)| *a = b + 0.3 * c));
+    };
+    let [whole, less, loops, limit] =
+        measure_together(effort, [&mut || grid.tick(), &mut || thin.tick(), &mut || plain.step(), &mut triad]);
+    // Both have the same interior but for the cells that only one layer takes.
+    let [wide, narrow] = widths.map(|width| layer_cells(cells, width));
+    let layer = (whole.median_ns - less.median_ns) / (wide - narrow);
+    let interior = Timing { median_ns: whole.median_ns - layer * wide, ..whole };
+    let row = |part: &str, timing: &Timing, timed: &str| {
+        Row::new("grid_step", &format!("{variant}, {part}, {threads} threads"))
+            .param("cells", cells)
+            .param("threads", threads as u64)
+            .param("triad_share", limit.median_ns / timing.median_ns)
+            .time(timed, timing)
+            .limit("triad over 12 bytes a cell, on the same threads in turns with it", limit.median_ns)
+    };
+    let percent = 100.0 * (whole.median_ns / interior.median_ns - 1.0);
+    Ok(vec![
+        row("whole", &whole, "a tick of the whole window, one sub-step, border included, no foam")
+            .error(error, "relative RMS", "the same scheme in f64, after 32 ticks")
+            .bound(1e-5)
+            .baseline("a plain f32 loop over the interior on one thread", &loops)
+            .note(format!("of this the border is {percent:.0} % over the interior")),
+        row(
+            "interior",
+            &interior,
+            "the same without a border: from layers of 4 cells and of all, extrapolated to none",
+        ),
+    ])
+}
+
+/// Cells that are stepped as layer: its strips along x are rounded up to eight.
+fn layer_cells(cells: u32, width: u32) -> f64 {
+    let rows = 2 * (width + 1);
+    f64::from(rows * cells + 2 * (width + 1).next_multiple_of(8) * (cells - rows))
+}
+
+fn waves(desc: GridDesc, pml_width: u32) -> Result<WaveGrid, CaseError> {
+    let mut grid = WaveGrid::new(GridDesc { pml_width, ..desc })?;
+    grid.set_tile_skipping(false);
+    let mut random = fixtures::Random::new(3);
+    let rough: Vec<f32> = grid.heights().iter().map(|_| LOW * random.within(-1.0, 1.0) as f32).collect();
+    grid.impose(&rough, &rough)?;
+    Ok(grid)
 }
 
 /// Relative RMS of the heights that the border cannot have reached.
@@ -58,6 +109,7 @@ fn against_f64(grid: &mut WaveGrid, scheme: Scheme) -> Result<f64, CaseError> {
     let [nx, nz] = grid.desc().cells.map(|n| n as usize);
     let mut random = fixtures::Random::new(3);
     let rough: Vec<f32> = (0..nx * nz).map(|_| random.within(-1.0, 1.0) as f32).collect();
+    grid.set_tile_skipping(false);
     grid.impose(&rough, &rough)?;
     let mut truth = Plain::new(grid, scheme, f64::from);
     for _ in 0..TICKS {

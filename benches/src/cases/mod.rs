@@ -16,6 +16,7 @@ mod grid_shore;
 mod grid_soak;
 mod grid_sources;
 mod grid_step;
+mod grid_tiles;
 mod grid_wake;
 mod harbour;
 mod ocean_buoy;
@@ -58,6 +59,7 @@ pub const CASES: &[Case] = &[
     grid_border::PML,
     grid_border::SHIFT,
     grid_step::STEP,
+    grid_tiles::TILES,
     grid_gpu_error::ERROR,
     grid_gpu::STEP,
     grid_gpu::TICK,
