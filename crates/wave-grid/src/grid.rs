@@ -9,7 +9,9 @@ use crate::border::{Axis, Profile};
 use crate::cpu::current::Carrier;
 use crate::cpu::foam::FoamLaw;
 use crate::cpu::kernels::Coefficients;
+use crate::cpu::moving::MovingLayer;
 use crate::cpu::tiles::Tiles;
+use crate::drift::Drift;
 use crate::feed::Feed;
 use crate::ground::Ground;
 use crate::window::{Move, Place};
@@ -47,6 +49,9 @@ pub struct WaveGrid {
     pub(crate) tops: Vec<f32>,
     pub(crate) law: FoamLaw,
     pub(crate) profile: Profile,
+    pub(crate) drift: Drift,
+    pub(crate) layer: Option<MovingLayer>,
+    pub(crate) matched: bool,
     pub(crate) axes: [Axis; 2],
     fade: [Vec<f32>; 2],
     /// What is drawn as the tick before is what stands now: since the last tick a source was added or nothing moves.
@@ -83,6 +88,9 @@ impl WaveGrid {
             tops: Vec::new(),
             law: FoamLaw::new(&desc, &stepping),
             profile,
+            drift: Drift::default(),
+            layer: None,
+            matched: true,
             axes: [Axis::new(&profile, 0, nx), Axis::new(&profile, 1, nz)],
             fade: [vec![0.0; nx], vec![0.0; nz]],
             captured: true,
@@ -106,6 +114,10 @@ impl WaveGrid {
 
     pub(crate) fn set_moving(&mut self, moving: bool) {
         self.moving = moving;
+        if !moving {
+            self.layer = None;
+            self.drift = Drift::default();
+        }
         let profile = Profile::new(self.desc.pml_width, self.stepping.a, moving);
         if profile != self.profile {
             self.profile = profile;
@@ -169,6 +181,12 @@ impl WaveGrid {
     /// Whether quiet tiles are left out (default). Without, every cell is stepped in every tick: for measurements.
     pub fn set_tile_skipping(&mut self, on: bool) {
         self.skipping = on;
+    }
+
+    /// Whether the border layer of a window that moves over plain water is matched to its motion (default). Without, it is
+    /// the gentler one that reflects more, which grids on the GPU have: for measurements.
+    pub fn set_matched_motion(&mut self, on: bool) {
+        self.matched = on;
     }
 
     /// Answers `out[i]` at `points[i]` (local x, z) from the end of the last tick; the shorter slice decides how many.

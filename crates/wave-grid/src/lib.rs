@@ -33,6 +33,7 @@ mod cells;
 mod cpu;
 mod desc;
 mod dispersion;
+mod drift;
 mod error;
 mod feed;
 mod field;

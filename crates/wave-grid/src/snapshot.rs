@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::cpu::tiles::{Mode, Tile, Tiles};
+use crate::drift::Drift;
 use crate::ground::Ground;
 use crate::window::Place;
 use crate::{Edges, GridDesc, GridError, WaveGrid};
@@ -20,6 +21,7 @@ pub struct GridSnapshot {
     ground: Option<Arc<Ground>>,
     feed: Option<Edges>,
     moving: bool,
+    drift: Drift,
     captured: bool,
     dropped: u64,
     /// Of each tile that is held: z, z_old, foam; then what it kept to be drawn; then phi along x and z.
@@ -53,6 +55,7 @@ impl WaveGrid {
             ground: self.ground.clone(),
             feed: self.feed.as_ref().map(|feed| feed.edges),
             moving: self.moving,
+            drift: self.drift,
             captured: self.captured,
             dropped: self.dropped,
             cells,
@@ -77,12 +80,13 @@ impl WaveGrid {
                 }
             }
         }
-        let GridSnapshot { place, origin, tiles, ground, feed, moving, captured, dropped, .. } = snapshot;
+        let GridSnapshot { place, origin, tiles, ground, feed, moving, drift, captured, dropped, .. } = snapshot;
         (self.place, self.origin) = (*place, *origin);
         (self.captured, self.dropped) = (*captured, *dropped);
         self.tiles.clone_from(tiles);
         self.ground.clone_from(ground);
         self.set_moving(*moving);
+        self.drift = *drift;
         self.update_fade();
         self.feed = feed.map(|edges| self.new_feed(edges));
         let mut left = &snapshot.cells[..];

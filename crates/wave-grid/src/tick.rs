@@ -1,6 +1,7 @@
 //! A tick: which tiles are stepped, sub-steps, foam; and what is kept to draw between two ticks.
 
 use crate::cpu::current::Carrier;
+use crate::cpu::moving::Motion;
 use crate::cpu::step::{Keep, Setting};
 use crate::cpu::tiles::Mode;
 use crate::feed::{Feed, Incident};
@@ -25,6 +26,7 @@ impl WaveGrid {
 
     fn advance(&mut self, mut fed: Option<(&mut Feed, &mut Incident)>) {
         self.capture();
+        self.drift.note(&self.place, &self.stepping);
         if let Some((feed, incident)) = &mut fed {
             feed.ask(incident, 0);
             feed.wake(&mut self.tiles, self.state.nx);
@@ -51,6 +53,7 @@ impl WaveGrid {
             self.carrier = Some(Carrier::new([self.state.nx, self.state.nz], self.profile.thickness));
         }
         self.tops.resize(self.tiles.tiles.len(), 0.0);
+        let moves = self.moving && self.matched && fed.is_none() && self.tiles.all_plain();
         for substep in 0..self.stepping.substeps {
             // After a tick of one sub-step the older state is that of the tick before, but where it was carried on.
             let keep = match (substep, self.stepping.substeps) {
@@ -66,8 +69,27 @@ impl WaveGrid {
                 coefficients: self.coefficients,
                 cells,
                 keep,
+                a: self.stepping.a,
+                moves,
             };
-            cpu::step::step(&mut self.state, &mut self.tops, &setting);
+            let held = self.drift.held;
+            let mut motion = Motion::default();
+            let mut moving = None;
+            if moves || held != motion.beta {
+                let (around, layer) = (setting.surroundings(), self.layer.get_or_insert_default());
+                if moves {
+                    motion = self.drift.motion(&self.place, substep, self.stepping.substeps);
+                }
+                if substep == 0 {
+                    layer.prepare(&self.state, &around);
+                    if motion.beta != held {
+                        layer.turn(&mut self.state, held, &motion, &around);
+                        self.drift.held = motion.beta;
+                    }
+                }
+                moving = moves.then_some((layer, &motion));
+            }
+            cpu::step::step(&mut self.state, &mut self.tops, &setting, moving);
             self.tiles.note(&self.tops);
             if substep == 0 {
                 self.tiles.note_kept(keep == Keep::All);

@@ -30,7 +30,10 @@ pub(crate) fn twins(context: &Context, descs: &[GridDesc]) -> Twins {
     let pairs: Vec<Pair> = descs
         .iter()
         .map(|desc| {
-            let pair = Pair { cpu: WaveGrid::new(*desc).unwrap(), id: gpu.insert(*desc).unwrap(), base };
+            let mut cpu = WaveGrid::new(*desc).unwrap();
+            // Shaders make the gentler layer.
+            cpu.set_matched_motion(false);
+            let pair = Pair { cpu, id: gpu.insert(*desc).unwrap(), base };
             base += desc.cells[0] * desc.cells[1] + GAP;
             pair
         })

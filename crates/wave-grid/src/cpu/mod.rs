@@ -10,6 +10,7 @@ pub(crate) mod lanes;
 #[cfg(test)]
 mod levels;
 pub(crate) mod mixed;
+pub(crate) mod moving;
 pub(crate) mod plain;
 pub(crate) mod sample;
 pub(crate) mod shift;

@@ -10,6 +10,7 @@ use crate::cpu::band::Band;
 use crate::cpu::kernels::{Coefficients, LayerRow, layer_row, rim_phi};
 use crate::cpu::lanes::Lanes;
 use crate::cpu::mixed::{GroundRow, mixed_layer_row, mixed_row};
+use crate::cpu::moving::{Motion, MovingLayer, Surroundings};
 use crate::cpu::plain::Block;
 use crate::cpu::tiles::{Class, Mode, Tile, Tiles};
 use crate::desc::MOST_CELLS;
@@ -22,6 +23,11 @@ const PARALLEL_TILES: usize = 384;
 const PIECES: usize = 2;
 /// The strips of the layer on both sides are rounded up to whole vectors; where Z is zero, the layer is the interior.
 const STRIP: usize = 8;
+
+/// Cells along x at both sides that the layer takes.
+pub(crate) fn strip(thickness: usize) -> usize {
+    thickness.next_multiple_of(STRIP)
+}
 
 /// Which tiles keep their heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,10 +45,22 @@ pub(crate) struct Setting<'a> {
     pub(crate) axes: &'a [Axis; 2],
     pub(crate) thickness: usize,
     pub(crate) coefficients: Coefficients,
+    /// (c dt/h)^2 along x and z.
+    pub(crate) a: [f64; 2],
     /// The medium where it varies.
     pub(crate) cells: Option<&'a Cells>,
     /// Active tiles whose heights are copied to `previous` if they have not kept them yet.
     pub(crate) keep: Keep,
+    /// The layer is made by [`MovingLayer`].
+    pub(crate) moves: bool,
+}
+
+impl Setting<'_> {
+    /// What the layer of a moving window needs to know.
+    pub(crate) fn surroundings(&self) -> Surroundings<'_> {
+        let Self { level, tiles, thickness, a, .. } = *self;
+        Surroundings { level, tiles, thickness, strip: strip(thickness), a, coefficients: &self.coefficients }
+    }
 }
 
 /// What all rows read.
@@ -55,13 +73,21 @@ struct Shared<'a> {
 }
 
 /// Advances the state by one sub-step. `tops` takes the largest |z| of each active tile.
-pub(crate) fn step(state: &mut State, tops: &mut [f32], setting: &Setting) {
+pub(crate) fn step(
+    state: &mut State,
+    tops: &mut [f32],
+    setting: &Setting,
+    moving: Option<(&mut MovingLayer, &Motion)>,
+) {
     let State { nx, nz, z, old, previous, phi, phi_next: [next_x, next_z], .. } = state;
     let shared = Shared { nx: *nx, nz: *nz, z, phi: [&phi[0], &phi[1]], by: setting };
     let band = Band { nx: *nx, first: 0, first_tile: 0, old, previous, phi_x: next_x, phi_z: next_z, tops };
     let tiles = setting.tiles;
     let pieces = if tiles.active >= PARALLEL_TILES { PIECES * rayon::current_num_threads() } else { 1 };
     walk(band, 0..tiles.count[1], pieces, &shared);
+    if let Some((layer, motion)) = moving {
+        layer.step(state, tops, motion, &setting.surroundings());
+    }
     std::mem::swap(&mut state.z, &mut state.old);
     std::mem::swap(&mut state.phi, &mut state.phi_next);
 }
@@ -136,11 +162,14 @@ impl Run<'_> {
             return;
         }
         let (start, end) = (self.x.start.max(1), self.x.end.min(nx - 1));
-        let strip = w.next_multiple_of(STRIP);
+        let strip = strip(w);
         // Where neither end of a row lies in the layer.
         let inner = start.max(1 + strip)..end.min(nx - 1 - strip);
         for j in self.rows.clone() {
             if j == 0 {
+                continue;
+            }
+            if s.by.moves {
                 continue;
             }
             if j == nz - 1 {

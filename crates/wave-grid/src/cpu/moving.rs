@@ -1,0 +1,395 @@
+//! The border layer of a window that moves over plain water, matched in the frame that moves with it.
+//!
+//! The wave equation keeps its form under the boost t' = T = g (d/dt + V . grad), g = (1 - V^2/c^2)^(-1/2), so a layer that stands
+//! still in the window's frame is perfectly matched there: along x, with N = g1 (d/dx + V1/c^2 d/dt) and
+//! g1 = (1 - V1^2/c^2)^(-1/2),
+//!
+//! z_tt + zeta1 (g1^2/g)(z_t + V1 z_x - V2 z_y) = c^2 lap z + N phi1 + d/dy phi2,
+//! T phi1 = -zeta1 phi1 - c^2 zeta1 N z,  T phi2 = zeta1 (c^2 - g1^2 V2^2) z_y,
+//!
+//! and the same along y; zeta1 zeta2 z in corners as in Grote and Sim's. Kept is chi1 = phi1 + k1 zeta1 z, k1 = g1 V1/g, whose equation
+//! and whose share in z_tt have no z_t left; terms with V1 V2 beside the layer's own are left out (a window that moves diagonally: 1 to 4 dB).
+//! chi moves with the window: by V dt through the water in each sub-step, read with a cubic; its sources are taken half before,
+//! half after that. In V z_x the height is the mean of three sub-steps across x, 1 - a sin^2(k h/2), without which the
+//! shortest waves along the layer grow. The ring is a copy of its neighbours on the sides behind: a wall there makes
+//! what stands in the window's frame grow.
+
+use std::ops::Range;
+
+use fearless_simd::{Level, dispatch};
+
+use crate::cpu::kernels::{Coefficients, flush, note};
+use crate::cpu::tiles::{Mode, Tiles};
+use crate::state::State;
+
+/// zeta h/c at the outer edge of a layer that moves.
+const PEAK: f64 = 1.5;
+/// Speed over c from which that holds; below it the layer is stronger.
+const SLOW: f64 = 0.1;
+/// ln R of a layer that stands still.
+const STILL: f64 = 26.0;
+
+/// How a window moves, as its layer sees it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Motion {
+    /// Velocity over the speed of waves.
+    pub(crate) beta: [f64; 2],
+    /// How far the layer stands ahead of the cells, -1 to 1 cells.
+    pub(crate) lean: [f64; 2],
+}
+
+/// Coefficients of one axis.
+#[derive(Debug, Clone, Copy)]
+struct Pull {
+    /// Cells per sub-step.
+    v: f32,
+    /// g1.
+    gamma: f32,
+    /// k1.
+    kappa: f32,
+    beta: f32,
+    /// (c dt/h)^2.
+    a: f32,
+}
+
+/// What both axes share, and each.
+#[derive(Debug, Clone, Copy)]
+struct Boost {
+    gamma: f32,
+    axes: [Pull; 2],
+}
+
+impl Boost {
+    fn new(beta: [f64; 2], a: [f64; 2]) -> Self {
+        let gamma = |b: f64| 1.0 / (1.0 - b).sqrt();
+        let all = gamma(beta[0] * beta[0] + beta[1] * beta[1]);
+        let axes = [0, 1].map(|k| {
+            let (own, v) = (gamma(beta[k] * beta[k]), beta[k] * a[k].sqrt());
+            Pull { v: v as f32, gamma: own as f32, kappa: (own * v / all) as f32, beta: beta[k] as f32, a: a[k] as f32 }
+        });
+        Self { gamma: all as f32, axes }
+    }
+}
+
+/// Z at nodes and on the edges before them.
+#[derive(Debug, Clone, Default)]
+struct Table {
+    node: Vec<f32>,
+    edge: Vec<f32>,
+}
+
+impl Table {
+    fn fill(&mut self, n: usize, width: f64, peak: f64, lean: f64) {
+        let at = |x: f64| {
+            let d = (width + lean - x).max(x - (n as f64 - 1.0 - width + lean)).clamp(0.0, width) / width;
+            (peak * d * d * d) as f32
+        };
+        self.node.clear();
+        self.edge.clear();
+        self.node.extend((0..n).map(|i| at(i as f64)));
+        self.edge.extend((0..n).map(|i| at(i as f64 - 0.5)));
+    }
+}
+
+/// A piece of a row within one tile.
+#[derive(Debug, Clone)]
+struct Piece {
+    j: usize,
+    x: Range<usize>,
+    tile: usize,
+}
+
+/// What the layer keeps besides the state.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct MovingLayer {
+    tables: [Table; 2],
+    /// Where chi and its sources are gathered, and where they have been moved along x.
+    gathered: [Vec<f32>; 2],
+    moved: [Vec<f32>; 2],
+    /// Cells whose edges before them, and cells that themselves, are in active tiles of the layer.
+    edges: Vec<Piece>,
+    nodes: Vec<Piece>,
+    row: Vec<f32>,
+}
+
+/// What is constant for a grid.
+pub(crate) struct Surroundings<'a> {
+    pub(crate) level: Level,
+    pub(crate) tiles: &'a Tiles,
+    pub(crate) thickness: usize,
+    /// Cells along x at both sides that the layer takes from the interior.
+    pub(crate) strip: usize,
+    pub(crate) a: [f64; 2],
+    pub(crate) coefficients: &'a Coefficients,
+}
+
+impl MovingLayer {
+    /// Before a tick: which tiles are active.
+    pub(crate) fn prepare(&mut self, state: &State, s: &Surroundings) {
+        let (nx, nz, w) = (state.nx, state.nz, s.thickness);
+        for array in self.gathered.iter_mut().chain(&mut self.moved) {
+            array.resize(nx * nz, 0.0);
+            for piece in &self.edges {
+                array[piece.j * nx..][piece.x.clone()].fill(0.0);
+            }
+        }
+        self.edges.clear();
+        self.nodes.clear();
+        let narrow = 2 * (1 + s.strip) >= nx;
+        for tz in 0..s.tiles.count[1] {
+            for j in s.tiles.span(1, tz).filter(|j| *j > 0) {
+                for (tx, tile) in s.tiles.row(tz).iter().enumerate() {
+                    if tile.mode != Mode::Active {
+                        continue;
+                    }
+                    let span = s.tiles.span(0, tx);
+                    let tile = tz * s.tiles.count[0] + tx;
+                    let add = |list: &mut Vec<Piece>, all: bool, more: usize, last: usize| {
+                        let within = |from: usize, to: usize| span.start.max(from)..span.end.min(to);
+                        let both = [within(1, 1 + s.strip + more), within(nx - 1 - s.strip, last)];
+                        let pieces = if all || narrow { [within(1, last), 0..0] } else { both };
+                        list.extend(pieces.into_iter().filter(|x| !x.is_empty()).map(|x| Piece { j, x, tile }));
+                    };
+                    add(&mut self.edges, j <= w + 1 || j >= nz - 1 - w, 1, nx);
+                    if j < nz - 1 {
+                        add(&mut self.nodes, j <= w || j >= nz - 1 - w, 0, nx - 1);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Makes chi hold for another velocity over the speed of waves than `held`: phi stays.
+    pub(crate) fn turn(&mut self, state: &mut State, held: [f64; 2], motion: &Motion, s: &Surroundings) {
+        self.shape(state, motion, s);
+        let (from, to) = (Boost::new(held, s.a), Boost::new(motion.beta, s.a));
+        let State { nx, z, old, phi, .. } = state;
+        for (k, back) in [(0, 1), (1, *nx)] {
+            let change = 0.25 * (to.axes[k].kappa - from.axes[k].kappa);
+            if change == 0.0 {
+                continue;
+            }
+            for Piece { j, x, .. } in &self.edges {
+                for i in x.clone() {
+                    let at = j * *nx + i;
+                    let zeta = self.tables[k].edge[if k == 0 { i } else { *j }];
+                    phi[k][at] =
+                        flush(phi[k][at] + change * zeta * ((z[at] + z[at - back]) + (old[at] + old[at - back])));
+                }
+            }
+        }
+    }
+
+    /// The layer's share of a sub-step: writes z+ over `old` and the next phi, notes the largest |z| of each tile.
+    pub(crate) fn step(&mut self, state: &mut State, tops: &mut [f32], motion: &Motion, s: &Surroundings) {
+        self.shape(state, motion, s);
+        let boost = Boost::new(motion.beta, s.a);
+        ring(state, motion.beta, false);
+        dispatch!(s.level, _simd => self.passes(state, tops, &boost, s.coefficients));
+        ring(state, motion.beta, true);
+    }
+
+    /// Where the layer stands and how strong it is.
+    fn shape(&mut self, state: &State, motion: &Motion, s: &Surroundings) {
+        let width = s.thickness as f64 - 1.0;
+        let beta = motion.beta;
+        let speed = (beta[0] * beta[0] + beta[1] * beta[1]).sqrt();
+        let peak = PEAK + (2.0 * STILL / width - PEAK).max(0.0) * (1.0 - speed / SLOW).max(0.0);
+        for (k, n) in [state.nx, state.nz].into_iter().enumerate() {
+            self.tables[k].fill(n, width, peak * s.a[k].sqrt(), motion.lean[k]);
+        }
+    }
+
+    #[inline(always)]
+    fn passes(&mut self, state: &mut State, tops: &mut [f32], boost: &Boost, k: &Coefficients) {
+        self.gather(state, boost, k);
+        for axis in 0..2 {
+            self.carry(axis, state.nx, state.nz, boost);
+        }
+        self.advance_memory(state, boost);
+        self.advance_heights(state, tops, boost, k);
+    }
+
+    /// (g - Z/2) chi + S/2 on every edge.
+    #[inline(always)]
+    fn gather(&mut self, state: &State, boost: &Boost, k: &Coefficients) {
+        let (nx, nz) = (state.nx, state.nz);
+        let [x, y] = &self.tables;
+        let [bx, bz] = boost.axes;
+        let [px, pz] = [&state.phi[0], &state.phi[1]];
+        let z = &state.z;
+        let [gathered_x, gathered_z] = &mut self.gathered;
+        let across_x = bx.gamma * (1.0 - bz.gamma * bz.gamma * bx.beta * bx.beta);
+        let across_z = bz.gamma * (1.0 - bx.gamma * bx.gamma * bz.beta * bz.beta);
+        for Piece { j, x: run, .. } in &self.edges {
+            let j = *j;
+            if j < nz - 1 {
+                for i in run.clone() {
+                    let at = j * nx + i;
+                    let (own, other) = (x.edge[i], y.node[j]);
+                    let beside = (z[at + nx] - z[at + nx - 1]) + (z[at - nx] - z[at - nx - 1]);
+                    let flux = k.straight[0] * (z[at] - z[at - 1]) + k.beside[0] * beside;
+                    let source =
+                        (other * across_x - own / bx.gamma) * flux + own * own * bx.kappa * (0.5 * (z[at] + z[at - 1]));
+                    gathered_x[at] = (boost.gamma - 0.5 * own) * px[at] + 0.5 * source;
+                }
+            }
+            for i in run.start..run.end.min(nx - 1) {
+                let at = j * nx + i;
+                let (own, other) = (y.edge[j], x.node[i]);
+                let beside = (z[at + 1] - z[at - nx + 1]) + (z[at - 1] - z[at - nx - 1]);
+                let flux = k.straight[1] * (z[at] - z[at - nx]) + k.beside[1] * beside;
+                let source =
+                    (other * across_z - own / bz.gamma) * flux + own * own * bz.kappa * (0.5 * (z[at] + z[at - nx]));
+                gathered_z[at] = (boost.gamma - 0.5 * own) * pz[at] + 0.5 * source;
+            }
+        }
+    }
+
+    /// Moves what axis `k` has gathered on with the window, into `moved`.
+    #[inline(always)]
+    fn carry(&mut self, k: usize, nx: usize, nz: usize, boost: &Boost) {
+        let last = [nx - 1, nz - 1];
+        // x-edges end a row earlier, z-edges a column.
+        let [end_x, end_z] = [last[0] - k, last[1] - (1 - k)];
+        let [wx, wz] = boost.axes.map(|axis| taps(axis.v));
+        let (gathered, moved) = (&self.gathered[k], &mut self.moved[k]);
+        self.row.resize(nx, 0.0);
+        for Piece { j, x, .. } in &self.edges {
+            if *j > end_z {
+                continue;
+            }
+            let x = x.start..x.end.min(end_x + 1);
+            let row = &mut self.row[x.clone()];
+            row.fill(0.0);
+            // Along z into the row's own sum, along x while reading: for the windows that move along an axis, five taps.
+            for (o, weight_z) in wz.iter().enumerate().filter(|(_, w)| **w != 0.0) {
+                let from = &gathered[(j + o).saturating_sub(2).clamp(1, end_z) * nx..][..nx];
+                for (p, weight_x) in wx.iter().enumerate().filter(|(_, w)| **w != 0.0) {
+                    let weight = weight_x * weight_z;
+                    let first = x.start + p;
+                    if first >= 3 && x.end + p <= end_x + 3 {
+                        for (sum, v) in row.iter_mut().zip(&from[first - 2..]) {
+                            *sum += weight * v;
+                        }
+                    } else {
+                        for (i, sum) in x.clone().zip(row.iter_mut()) {
+                            *sum += weight * from[(i + p).saturating_sub(2).clamp(1, end_x)];
+                        }
+                    }
+                }
+            }
+            moved[j * nx..][x].copy_from_slice(row);
+        }
+    }
+
+    /// chi a sub-step on: (moved + S/2) / (g + Z/2).
+    #[inline(always)]
+    fn advance_memory(&mut self, state: &mut State, boost: &Boost) {
+        let (nx, nz) = (state.nx, state.nz);
+        let [x, y] = &self.tables;
+        for Piece { j, x: run, .. } in &self.edges {
+            let ends = [run.end * usize::from(*j < nz - 1), run.end.min(nx - 1)];
+            for (k, end) in ends.into_iter().enumerate() {
+                let (gathered, moved) = (&self.gathered[k], &self.moved[k]);
+                for i in run.start..end {
+                    let at = j * nx + i;
+                    let (own, other) = if k == 0 { (x.edge[i], y.node[*j]) } else { (y.edge[*j], x.node[i]) };
+                    let source = gathered[at] - (boost.gamma - 0.5 * own) * state.phi[k][at];
+                    let next = (moved[at] + source) / (boost.gamma + 0.5 * own);
+                    state.phi_next[k][at] = if own > 0.0 || other > 0.0 { flush(next) } else { 0.0 };
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn advance_heights(&self, state: &mut State, tops: &mut [f32], boost: &Boost, k: &Coefficients) {
+        let nx = state.nx;
+        let [x, y] = &self.tables;
+        let [bx, bz] = boost.axes;
+        let State { z, old, phi, phi_next, .. } = state;
+        let [px, pz, nx_, nz_] = [&phi[0], &phi[1], &phi_next[0], &phi_next[1]];
+        let square = |b: &Pull| b.gamma * b.gamma / boost.gamma;
+        let damp = [square(&bx), square(&bz)];
+        let [damped_x, damped_z] = [damp[0] * (1.0 + bx.beta * bx.beta), damp[1] * (1.0 + bz.beta * bz.beta)];
+        for Piece { j, x: run, tile } in &self.nodes {
+            let j = *j;
+            let (z2, e2) = (y.node[j], [y.edge[j], y.edge[j + 1]]);
+            for i in run.clone() {
+                let at = j * nx + i;
+                let (c, w, e, s, n) = (z[at], z[at - 1], z[at + 1], z[at - nx], z[at + nx]);
+                let (sw, se, nw, ne) = (z[at - nx - 1], z[at - nx + 1], z[at + nx - 1], z[at + nx + 1]);
+                let flux_w = k.straight[0] * (c - w) + k.beside[0] * ((n - nw) + (s - sw));
+                let flux_e = k.straight[0] * (e - c) + k.beside[0] * ((ne - n) + (se - s));
+                let flux_s = k.straight[1] * (c - s) + k.beside[1] * ((e - se) + (w - sw));
+                let flux_n = k.straight[1] * (n - c) + k.beside[1] * ((ne - e) + (nw - w));
+                // Mean of three sub-steps of waves across each axis.
+                let mean = |c: f32, a: f32, low: f32, high: f32| c + 0.25 * a * ((low - c) + (high - c));
+                let (in_x, in_z) = (mean(c, bz.a, s, n), mean(c, bx.a, w, e));
+                let (west, east) = (mean(w, bz.a, sw, nw), mean(e, bz.a, se, ne));
+                let (south, north) = (mean(s, bx.a, sw, se), mean(n, bx.a, nw, ne));
+                let (z1, e1) = (x.node[i], [x.edge[i], x.edge[i + 1]]);
+                let drift = bx.v * (0.5 * (east - west));
+                let drift_z = bz.v * (0.5 * (north - south));
+                let [q_w, q_e] = [px[at] + nx_[at], px[at + 1] + nx_[at + 1]];
+                let [q_s, q_n] = [pz[at] + nz_[at], pz[at + nx] + nz_[at + nx]];
+                let plain = (flux_e - flux_w) + (flux_n - flux_s);
+                let layer = 0.5 * ((q_e - q_w) / bx.gamma + (q_n - q_s) / bz.gamma);
+                let along = (damp[0] * z1 - damp[1] * z2) * (drift_z - drift);
+                let own_x = own(&bx, z1, e1, [q_w + q_e, drift, c], [west, in_x, east]);
+                let own_z = own(&bz, z2, e2, [q_s + q_n, drift_z, c], [south, in_z, north]);
+                let (half, corner) = (0.5 * (damped_x * z1 + damped_z * z2), 0.25 * z1 * z2);
+                let keep = 1.0 - half + corner - k.damping;
+                let still = keep * (c - old[at]) - 4.0 * corner * c;
+                let rest = (plain + layer) + (along + (own_x + own_z));
+                let next = flush(c + (still + rest) / (1.0 + half + corner + k.damping));
+                old[at] = next;
+                note(&mut tops[*tile], next);
+            }
+        }
+    }
+}
+
+/// What N phi has beyond d/dx chi / g1. `zeta` at the node, `edges` on both sides of it; four times the mean chi, V z_x and z; the heights before, here, after.
+#[inline(always)]
+fn own(b: &Pull, zeta: f32, edges: [f32; 2], [chi, drift, z]: [f32; 3], heights: [f32; 3]) -> f32 {
+    let k = b.kappa;
+    let memory = k / b.a * zeta * (k * zeta * z - 0.25 * chi);
+    let slope = if b.v == 0.0 { 0.0 } else { k / (b.gamma * b.v) * zeta * drift };
+    let [low, high] = [edges[0] * (0.5 * (heights[0] + heights[1])), edges[1] * (0.5 * (heights[1] + heights[2]))];
+    memory - slope - k * b.gamma * ((high - low) - b.beta * b.beta * (edges[1] - edges[0]) * z)
+}
+
+/// Weights of the five values around one for a cubic that reads `v` before it, |v| <= 1.
+fn taps(v: f32) -> [f32; 5] {
+    let t = v.abs();
+    let (a, b) = ((t - 1.0) * (t - 2.0), t * (t + 1.0));
+    let mut w = [0.0, -t * a / 6.0, 0.5 * (t + 1.0) * a, -0.5 * b * (t - 2.0), b * (t - 1.0) / 6.0];
+    if v >= 0.0 {
+        w.reverse();
+    }
+    w
+}
+
+/// Fills the ring of both heights on the sides behind with what is beside it, or clears it.
+fn ring(state: &mut State, beta: [f64; 2], clear: bool) {
+    let State { nx, nz, z, old, .. } = state;
+    let (nx, nz) = (*nx, *nz);
+    for z in [z, old] {
+        if beta[0] != 0.0 {
+            let (ring, inside) = if beta[0] > 0.0 { (0, 1) } else { (nx - 1, nx - 2) };
+            for row in z.chunks_exact_mut(nx) {
+                row[ring] = if clear { 0.0 } else { row[inside] };
+            }
+        }
+        if beta[1] != 0.0 {
+            let (ring, inside) = if beta[1] > 0.0 { (0, 1) } else { (nz - 1, nz - 2) };
+            if clear {
+                z[ring * nx..][..nx].fill(0.0);
+            } else {
+                z.copy_within(inside * nx..(inside + 1) * nx, ring * nx);
+            }
+        }
+    }
+}
