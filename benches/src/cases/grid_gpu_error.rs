@@ -50,6 +50,8 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
         let medium = walls.then(|| Arc::new(Pillars) as Arc<dyn Medium>);
         let mut cpu = WaveGrid::new(desc)?;
         cpu.set_medium(medium.clone());
+        // Shaders make the gentler layer.
+        cpu.set_matched_motion(false);
         let mut grids = GpuGrids::new(&gpu.device);
         grids.set_medium(medium);
         let id = grids.insert(desc)?;

@@ -1,7 +1,7 @@
 //! How fast a window moves over the water, for its border layer.
 
 use crate::Stepping;
-use crate::cpu::moving::Motion;
+use crate::cpu::boost::Motion;
 use crate::window::Place;
 
 /// Share of a change of velocity that is taken over in a tick.
@@ -38,7 +38,7 @@ impl Drift {
     /// What the layer needs in a sub-step.
     pub(crate) fn motion(&self, place: &Place, substep: u32, substeps: u32) -> Motion {
         let speed = (self.beta[0] * self.beta[0] + self.beta[1] * self.beta[1]).sqrt();
-        let beta = if speed < NONE || speed > FAST { [0.0; 2] } else { self.beta };
+        let beta = if !(NONE..=FAST).contains(&speed) { [0.0; 2] } else { self.beta };
         let since = f64::from(substep) + 0.5 - 0.5 * f64::from(substeps);
         Motion { beta, lean: [0, 1].map(|k| (place.lean[k] + self.last[k] * since).clamp(-1.0, 1.0)) }
     }

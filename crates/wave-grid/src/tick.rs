@@ -1,7 +1,7 @@
 //! A tick: which tiles are stepped, sub-steps, foam; and what is kept to draw between two ticks.
 
+use crate::cpu::boost::Motion;
 use crate::cpu::current::Carrier;
-use crate::cpu::moving::Motion;
 use crate::cpu::step::{Keep, Setting};
 use crate::cpu::tiles::Mode;
 use crate::feed::{Feed, Incident};

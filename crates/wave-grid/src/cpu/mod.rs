@@ -1,6 +1,7 @@
 //! The grid's passes on the CPU, the twins of the WGSL passes of the same names.
 
 pub(crate) mod band;
+pub(crate) mod boost;
 pub(crate) mod current;
 pub(crate) mod draw;
 pub(crate) mod foam;

@@ -7,10 +7,11 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use crate::border::Axis;
 use crate::cpu::band::Band;
+use crate::cpu::boost::Motion;
 use crate::cpu::kernels::{Coefficients, LayerRow, layer_row, rim_phi};
 use crate::cpu::lanes::Lanes;
 use crate::cpu::mixed::{GroundRow, mixed_layer_row, mixed_row};
-use crate::cpu::moving::{Motion, MovingLayer, Surroundings};
+use crate::cpu::moving::{MovingLayer, Surroundings};
 use crate::cpu::plain::Block;
 use crate::cpu::tiles::{Class, Mode, Tile, Tiles};
 use crate::desc::MOST_CELLS;
