@@ -1,7 +1,7 @@
 //! Cases `pml_pulse` (what the border sends back) and `shift_exact` (a moving window leaves the water alone).
 
 use glam::{DVec2, Vec2};
-use wave_grid::{GridDesc, Scheme, Source, WaveGrid};
+use wave_grid::{Border, GridDesc, Scheme, Source, WaveGrid};
 
 use crate::{
     evidence::{Axis, Case, CaseError, Context, Plot, Row, measure},
@@ -37,7 +37,7 @@ const WAVELENGTH: f64 = 10.0;
 
 fn scene(scheme: Scheme, width: u32, cells: usize) -> GridDesc {
     let scene = if scheme == Scheme::NinePoint { fixtures::grid() } else { fixtures::paper_grid() };
-    GridDesc { cells: [cells as u32; 2], pml_width: width, ..scene }
+    GridDesc { cells: [cells as u32; 2], border: Border::Absorbing { width }, ..scene }
 }
 
 fn pulse(context: &Context) -> Result<Vec<Row>, CaseError> {

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use glam::Vec2;
 use wave_grid::gpu::{GpuGridId, GpuGrids};
-use wave_grid::{GridDesc, Scheme, Source, WaveGrid};
+use wave_grid::{Border, GridDesc, Scheme, Source, WaveGrid};
 
 use super::grid_gpu_plain::{Plain, PlainKernel};
 use crate::{
@@ -46,7 +46,14 @@ pub(super) const ACTIVE: Case = Case {
 /// Waves so slow that they stay where they are during a measurement, and the thinnest border.
 fn slow(cells: u32, scheme: Scheme, substeps: u32) -> GridDesc {
     let (wave_speed, substeps) = (0.05, Some(substeps));
-    GridDesc { cells: [cells; 2], scheme, wave_speed, substeps, pml_width: 4, ..fixtures::grid() }
+    GridDesc {
+        cells: [cells; 2],
+        scheme,
+        wave_speed,
+        substeps,
+        border: Border::Absorbing { width: 4 },
+        ..fixtures::grid()
+    }
 }
 
 /// A grid with waves in the tiles of a square with `share` of its area, from a corner on.

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
-use wave_grid::{CellKind, GridDesc, Medium, MediumCell, Scheme, Source, WaveGrid};
+use wave_grid::{Border, CellKind, GridDesc, Medium, MediumCell, Scheme, Source, WaveGrid};
 
 use super::grid_border::reflection;
 use crate::{
@@ -78,7 +78,7 @@ fn pulse(_: &Context) -> Result<Vec<Row>, CaseError> {
     let mut rows = Vec::new();
     for (variant, bound, medium) in media {
         let grid = |cells: u32| -> Result<WaveGrid, CaseError> {
-            let desc = GridDesc { cells: [cells; 2], pml_width: 12, ..fixtures::grid() };
+            let desc = GridDesc { cells: [cells; 2], border: Border::Absorbing { width: 12 }, ..fixtures::grid() };
             let mut grid = WaveGrid::new(desc)?;
             grid.set_medium(Some(Arc::new(By { cell: f64::from(desc.cell_size[0]), medium })));
             Ok(grid)

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use rayon::prelude::*;
-use wave_grid::{GridDesc, Scheme, WaveGrid};
+use wave_grid::{Border, GridDesc, Scheme, WaveGrid};
 
 use crate::{
     evidence::{Axis, Case, CaseError, Context, Effort, Plot, Row, Timing, measure_together},
@@ -50,7 +50,7 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
 fn ticks(effort: Effort, variant: &str, desc: GridDesc, threads: usize, error: f64) -> Result<Vec<Row>, CaseError> {
     let cells = desc.cells[0];
     let count = (cells * cells) as usize;
-    let widths = [desc.pml_width, 4];
+    let widths = [desc.border.width(), 4];
     let [mut grid, mut thin] = [waves(desc, widths[0])?, waves(desc, widths[1])?];
     let mut plain = Plain::new(&grid, desc.scheme, |v| v);
     let (b, c) = (vec![1.0f32; count], vec![2.0f32; count]);
@@ -95,8 +95,8 @@ fn layer_cells(cells: u32, width: u32) -> f64 {
     f64::from(rows * cells + 2 * (width + 1).next_multiple_of(8) * (cells - rows))
 }
 
-fn waves(desc: GridDesc, pml_width: u32) -> Result<WaveGrid, CaseError> {
-    let mut grid = WaveGrid::new(GridDesc { pml_width, ..desc })?;
+fn waves(desc: GridDesc, width: u32) -> Result<WaveGrid, CaseError> {
+    let mut grid = WaveGrid::new(GridDesc { border: Border::Absorbing { width }, ..desc })?;
     grid.set_tile_skipping(false);
     let mut random = fixtures::Random::new(3);
     let rough: Vec<f32> = grid.heights().iter().map(|_| LOW * random.within(-1.0, 1.0) as f32).collect();
@@ -116,7 +116,7 @@ fn against_f64(grid: &mut WaveGrid, scheme: Scheme) -> Result<f64, CaseError> {
         grid.tick();
         truth.step();
     }
-    let margin = TICKS + grid.desc().pml_width as usize + 2;
+    let margin = TICKS + grid.desc().border.width() as usize + 2;
     let (mut difference, mut square) = (0.0, 0.0);
     for j in margin..nz - margin {
         for at in j * nx + margin..(j + 1) * nx - margin {

@@ -1,7 +1,7 @@
 //! Case `grid_tiles`: a tick of the CPU grid against the share of tiles that hold waves, and what leaving the others out changes.
 
 use glam::Vec2;
-use wave_grid::{GridDesc, QUIET_HEIGHT, Source, WaveGrid};
+use wave_grid::{Border, GridDesc, QUIET_HEIGHT, Source, WaveGrid};
 
 use crate::{
     evidence::{Axis, Case, CaseError, Context, Plot, Row, measure},
@@ -28,8 +28,13 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
     let mut rows = vec![skipped()?];
     for &percent in context.pick(&[0u32, 5, 50, 100][..], &[0, 1, 2, 5, 10, 20, 35, 50, 70, 100]) {
         // Waves so slow that they stay where they are during a measurement.
-        let desc =
-            GridDesc { cells: [CELLS; 2], wave_speed: 0.05, substeps: Some(1), pml_width: 4, ..fixtures::grid() };
+        let desc = GridDesc {
+            cells: [CELLS; 2],
+            wave_speed: 0.05,
+            substeps: Some(1),
+            border: Border::Absorbing { width: 4 },
+            ..fixtures::grid()
+        };
         let mut grid = WaveGrid::new(desc)?;
         let side = (f64::from(CELLS) * (f64::from(percent) / 100.0).sqrt()) as u32;
         let mut random = fixtures::Random::new(3);

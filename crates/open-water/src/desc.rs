@@ -3,7 +3,7 @@
 use floating_body::BodyDesc;
 use glam::{DVec2, Vec3};
 use ocean_spectrum::{CascadeDesc, OceanDesc, SeaState};
-use wave_grid::{Edges, Scheme};
+use wave_grid::{Border, Edges, Rain, Scheme};
 
 use crate::{Follow, OpenWaterError};
 
@@ -80,8 +80,12 @@ pub struct GridDesc {
     pub wave_speed: f32,
     /// Interior scheme.
     pub scheme: Scheme,
-    /// Width of the absorbing border, cells.
-    pub pml_width: u32,
+    /// What is at the edge of its window. One with [`Border::Periodic`] is for detail such as rain: it repeats over the whole
+    /// plane, fades from 30 to 60 m from the eye ([`OpenWater::look`](crate::OpenWater::look)), or from the world's origin
+    /// while nobody looks, and is no body's home. Needs a home on the CPU unless it absorbs by a matched layer.
+    pub border: Border,
+    /// Rain that falls into it, on the CPU only.
+    pub rain: Option<Rain>,
     /// Sides through which the ambient sea comes in; needs [`Land`](crate::Land), a fixed place on its depth map and a
     /// home on the CPU. Where such a grid is, the ambient sea leaves the waves to it that it can carry: of the longest
     /// cascades those whose shortest wave has six cells.
@@ -101,7 +105,7 @@ impl GridDesc {
             cell_size: self.cell_size,
             wave_speed: self.wave_speed,
             scheme: self.scheme,
-            pml_width: self.pml_width,
+            border: self.border,
             tick,
             ..wave_grid::GridDesc::default()
         }
@@ -144,7 +148,7 @@ impl Preset {
     /// The grid of this quality that follows a boat. Its wave speed is the phase speed of waves about 25 m long; cell
     /// size and speed keep the scheme near its stability bound, where its phase error is least.
     pub fn grid(self) -> GridDesc {
-        let (cells, scheme, pml_width) = match self {
+        let (cells, scheme, width) = match self {
             Self::Low => (256, Scheme::NinePoint, 8),
             Self::Medium => (512, Scheme::NinePoint, 12),
             Self::High => (768, Scheme::NinePoint, 16),
@@ -159,7 +163,8 @@ impl Preset {
             cell_size: [0.125; 2],
             wave_speed,
             scheme,
-            pml_width,
+            border: Border::Absorbing { width },
+            rain: None,
             feed: Edges::default(),
         }
     }

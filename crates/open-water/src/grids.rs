@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DVec2, Vec2, Vec3};
 use ocean_spectrum::Ocean;
 use slotmap::SlotMap;
-use wave_grid::{GridSample, Medium, Source, WaveGrid, Window};
+use wave_grid::{Border, GridSample, Medium, Source, WaveGrid, Window};
 
 use crate::follow::Look;
 use crate::land::Feeding;
@@ -16,6 +16,8 @@ use crate::{BodyId, Follow, GridDesc, GridHome, GridId, OpenWaterError};
 /// Most grids that a water may hold: all of them are drawn.
 pub const MAX_GRIDS: usize = open_water_shaders::surface::MAX_GRIDS;
 
+/// Distance at which a grid that repeats has faded, metres; the fade begins at half of it.
+pub(crate) const REACH: f32 = 60.0;
 /// Seconds in which a grid that was removed fades.
 const FADE: f32 = 1.0;
 
@@ -35,6 +37,8 @@ pub(crate) struct Grid {
     pub(crate) trail: DVec2,
     /// The place it follows, with `Follow::Point`.
     pub(crate) point: Option<DVec2>,
+    /// Around where it is seen, local, if it repeats.
+    pub(crate) middle: Vec2,
     /// How the ambient sea comes in.
     pub(crate) feeding: Option<Feeding>,
 }
@@ -54,13 +58,28 @@ impl Grid {
             #[cfg(feature = "gpu")]
             Sim::Gpu(grid) => grid.sample(points, out),
         }
-        if self.gain < 1.0 {
-            for sample in out {
-                sample.height *= self.gain;
-                sample.slope *= self.gain;
-                sample.vertical_velocity *= self.gain;
+        if self.gain < 1.0 || self.repeats() {
+            for (point, sample) in points.iter().zip(out) {
+                let share = self.gain * self.seen(*point);
+                sample.height *= share;
+                sample.slope *= share;
+                sample.vertical_velocity *= share;
             }
         }
+    }
+
+    /// Whether it stands for the whole plane.
+    pub(crate) fn repeats(&self) -> bool {
+        self.desc.border == Border::Periodic
+    }
+
+    /// How much of it is left at a local point by the distance from the eye, 0 to 1.
+    fn seen(&self, point: Vec2) -> f32 {
+        if !self.repeats() {
+            return 1.0;
+        }
+        let t = (2.0 - 2.0 * self.middle.distance(point) / REACH).clamp(0.0, 1.0);
+        if t > 0.0 { t * t * (3.0 - 2.0 * t) } else { 0.0 }
     }
 
     pub(crate) fn window(&self) -> Window {
@@ -89,13 +108,18 @@ impl Grid {
         }
     }
 
-    /// One tick that begins at `time` seconds.
-    fn tick(&mut self, ocean: Option<&Ocean>, time: f64) {
+    /// Tick number `tick`, which begins at `time` seconds.
+    fn tick(&mut self, ocean: Option<&Ocean>, tick: u64, time: f64) {
         match &mut self.sim {
-            Sim::Cpu(grid) => match (&mut self.feeding, ocean) {
-                (Some(feeding), Some(ocean)) => feeding.tick(grid, ocean, time),
-                _ => grid.tick(),
-            },
+            Sim::Cpu(grid) => {
+                if let Some(rain) = &self.desc.rain {
+                    grid.add_rain(rain, tick);
+                }
+                match (&mut self.feeding, ocean) {
+                    (Some(feeding), Some(ocean)) => feeding.tick(grid, ocean, time),
+                    _ => grid.tick(),
+                }
+            }
             // All of these tick at once: see `RemoteGrids::tick`.
             #[cfg(feature = "gpu")]
             Sim::Gpu(_) => {}
@@ -145,7 +169,7 @@ impl Grid {
 
     /// Width of the border in which nothing may disturb it, cells.
     fn rim(&self) -> f64 {
-        f64::from(self.desc.pml_width) + 4.0
+        f64::from(self.desc.border.width()) + 4.0
     }
 
     /// Extent of the window without its border, metres.
@@ -159,12 +183,13 @@ impl Grid {
     pub(crate) fn covers(&self, place: Vec2, reach: f32, margin: f64) -> bool {
         let window = self.window();
         let at = window.cells_from_corner(place, DVec2::ZERO);
-        (0..2).all(|k| {
-            let cells = f64::from(window.cells[k]);
-            let most = 0.5 * cells - self.rim() - 2.0 - margin;
-            let rim = self.rim() + margin + f64::from(reach / window.cell_size[k]).min(most).max(0.0);
-            at[k] > rim && at[k] < cells - rim
-        })
+        !self.repeats()
+            && (0..2).all(|k| {
+                let cells = f64::from(window.cells[k]);
+                let most = 0.5 * cells - self.rim() - 2.0 - margin;
+                let rim = self.rim() + margin + f64::from(reach / window.cell_size[k]).min(most).max(0.0);
+                at[k] > rim && at[k] < cells - rim
+            })
     }
 
     /// Whether it follows the body.
@@ -226,6 +251,7 @@ impl Grids {
             into: None,
             trail: DVec2::ZERO,
             point: None,
+            middle: Vec2::ZERO,
             feeding: None,
         });
         self.place();
@@ -283,13 +309,14 @@ impl Grids {
             if let Some(target) = grid.target(look, level, &place_of) {
                 grid.center_on(target);
             }
+            grid.middle = look.map_or(Vec2::ZERO, |look| Vec2::new(look.eye.x, look.eye.z));
         }
     }
 
-    /// Runs one tick of each, beginning at `time` seconds.
-    pub(crate) fn tick(&mut self, ocean: Option<&Ocean>, time: f64) {
+    /// Runs tick number `tick` of each, which begins at `time` seconds.
+    pub(crate) fn tick(&mut self, ocean: Option<&Ocean>, tick: u64, time: f64) {
         for grid in &mut self.list {
-            grid.tick(ocean, time);
+            grid.tick(ocean, tick, time);
         }
     }
 }

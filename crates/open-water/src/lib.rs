@@ -74,4 +74,4 @@ pub use floating_body::{
 pub use ocean_spectrum::{
     CascadeDesc, DirectionalTable, Ocean, OceanDesc, Partition, SeaState, Spectrum, Spreading, TableRow, Tail,
 };
-pub use wave_grid::{Edges, Scheme, WaveGrid};
+pub use wave_grid::{Border, Edges, Rain, Scheme, WaveGrid};

@@ -163,6 +163,22 @@ impl GridDesc {
         if self.feed.any() && self.home == GridHome::Gpu {
             return Err(OpenWaterError::Feed("when it is homed on the CPU: `GridHome::Cpu`"));
         }
+        if self.feed.any() && self.border.width() == 0 {
+            return Err(OpenWaterError::Feed("when its border absorbs"));
+        }
+        if let Some(rain) = &self.rain {
+            let invalid =
+                |field, value: f32, bound| Err(OpenWaterError::InvalidValue { field, value: value.into(), bound });
+            if !(0.0..=1000.0).contains(&rain.rate) {
+                return invalid("rain: rate", rain.rate, "0 to 1000 mm/h");
+            }
+            if !(1e-4..=0.1).contains(&rain.drop_radius) {
+                return invalid("rain: drop_radius", rain.drop_radius, "0.0001 to 0.1 m");
+            }
+            if self.home == GridHome::Gpu {
+                return invalid("rain: rate", rain.rate, "given to grids homed on the CPU only");
+            }
+        }
         Ok(())
     }
 }

@@ -185,7 +185,7 @@ impl OpenWater {
         let bodies = &self.bodies;
         let start = self.tick as f64 * f64::from(tick.dt);
         self.grids.center(self.looking.as_ref(), self.shore.level, |id| bodies.place_of(id));
-        self.grids.tick(self.ocean.as_ref(), start);
+        self.grids.tick(self.ocean.as_ref(), tick.index, start);
         for id in self.grids.fade(tick.dt) {
             self.drop_grid(id)?;
         }

@@ -2,8 +2,8 @@
 
 use glam::{DVec2, Quat, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyId, BodyState, BodyStates, BodyStore, Controls, Follow, GridDesc, Hull, OpenWater, OpenWaterDesc,
-    OpenWaterError, Preset, Radiation, Tick, WaterSample,
+    BodyDesc, BodyId, BodyState, BodyStates, BodyStore, Border, Controls, Follow, GridDesc, Hull, OpenWater,
+    OpenWaterDesc, OpenWaterError, Preset, Radiation, Tick, WaterSample,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -19,7 +19,7 @@ fn calm() -> OpenWaterDesc {
 }
 
 fn small_grid() -> GridDesc {
-    GridDesc { cells: [128; 2], pml_width: 8, ..GridDesc::default() }
+    GridDesc { cells: [128; 2], border: Border::Absorbing { width: 8 }, ..GridDesc::default() }
 }
 
 fn boat() -> BodyDesc {

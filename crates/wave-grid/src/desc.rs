@@ -1,6 +1,6 @@
 //! The description of a grid and what follows from it: sub-steps and the Courant number.
 
-use crate::GridError;
+use crate::{Border, GridError};
 
 /// Most sub-steps of a tick. A wave must not cross a tile within one tick.
 pub const MAX_SUBSTEPS: u32 = 16;
@@ -57,8 +57,8 @@ pub struct GridDesc {
     pub wave_speed: f32,
     /// Discretisation. Default nine-point.
     pub scheme: Scheme,
-    /// Cells of the absorbing layer on each side: 4 to 20. Default 12; 8 is cheaper, 16 better.
-    pub pml_width: u32,
+    /// What is at the window's edge. Default a layer of 12 cells that absorbs.
+    pub border: Border,
     /// Linear damping sigma of `z_tt + sigma z_t = c^2 lap z`, 1/s: 0 to 10. Default 0.
     pub damping: f32,
     /// Length of a tick, seconds: 0.0001 to 1. Default 1/60.
@@ -74,7 +74,7 @@ impl Default for GridDesc {
             cell_size: [0.5; 2],
             wave_speed: 6.0,
             scheme: Scheme::default(),
-            pml_width: 12,
+            border: Border::default(),
             damping: 0.0,
             tick: 1.0 / 60.0,
             substeps: None,
@@ -129,7 +129,9 @@ impl GridDesc {
             within(field, f64::from(h), 0.001, 1000.0, "0.001 to 1000 m")?;
         }
         within("wave_speed", f64::from(self.wave_speed), 0.001, 1000.0, "0.001 to 1000 m/s")?;
-        within("pml_width", f64::from(self.pml_width), 4.0, 20.0, "4 to 20 cells")?;
+        if let Border::Absorbing { width } | Border::Sponge { width } = self.border {
+            within("border: width", f64::from(width), 4.0, 20.0, "4 to 20 cells")?;
+        }
         within("damping", f64::from(self.damping), 0.0, 10.0, "0 to 10 1/s")?;
         within("tick", f64::from(self.tick), 0.0001, 1.0, "0.0001 to 1 s")?;
         let (c, h, tick) = (f64::from(self.wave_speed), self.cell_size.map(f64::from), f64::from(self.tick));

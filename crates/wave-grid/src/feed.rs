@@ -69,8 +69,8 @@ pub struct FeedLine {
 }
 
 /// Distance of the contour from the window's edge, cells.
-pub(crate) fn contour(pml_width: u32) -> usize {
-    pml_width as usize + 3
+pub(crate) fn contour(width: u32) -> usize {
+    width as usize + 3
 }
 
 /// One line with the coefficients that carry one row's heights to the other.
@@ -106,7 +106,7 @@ impl Feed {
         cells: Option<&Cells>,
     ) -> Self {
         let size = desc.cells.map(|n| n as usize);
-        let at = contour(desc.pml_width);
+        let at = contour(desc.border.width());
         // First and last cell that holds the total field, per axis.
         let inside: [[usize; 2]; 2] = std::array::from_fn(|k| {
             let [low, high] = edges.of(k);
@@ -201,7 +201,7 @@ impl Scheme<'_> {
         // Towards a side that is not fed, waves cease within its layer.
         let taper = |k: usize| {
             let cell = first + k;
-            let t = (cell.min(size - 1 - cell) as f64 / f64::from(self.desc.pml_width + 1)).min(1.0);
+            let t = (cell.min(size - 1 - cell) as f64 / f64::from(self.desc.border.width() + 1)).min(1.0);
             (t * t * (3.0 - 2.0 * t)) as f32
         };
         let cell = |across: usize, k: usize| if axis == 0 { [across, first + k] } else { [first + k, across] };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fearless_simd::Level;
 use glam::{DVec2, Vec2};
 
-use crate::border::{Axis, Profile};
+use crate::border::{Axis, Border, Profile};
 use crate::cpu::current::Carrier;
 use crate::cpu::foam::FoamLaw;
 use crate::cpu::kernels::Coefficients;
@@ -75,7 +75,7 @@ impl WaveGrid {
         let stepping = desc.stepping()?;
         let [nx, nz] = desc.cells.map(|n| n as usize);
         let place = Place::new(&desc);
-        let profile = Profile::new(desc.pml_width, stepping.a, false);
+        let profile = Profile::new(desc.border, stepping.a, false);
         let mut grid = Self {
             stepping,
             origin: DVec2::ZERO,
@@ -118,7 +118,7 @@ impl WaveGrid {
             self.layer = None;
             self.drift = Drift::default();
         }
-        let profile = Profile::new(self.desc.pml_width, self.stepping.a, moving);
+        let profile = Profile::new(self.desc.border, self.stepping.a, moving);
         if profile != self.profile {
             self.profile = profile;
             self.axes = [Axis::new(&profile, 0, self.state.nx), Axis::new(&profile, 1, self.state.nz)];
@@ -140,6 +140,7 @@ impl WaveGrid {
                 if !self.at_rest() {
                     self.set_moving(true);
                     cpu::shift::shift(&mut self.state, shift, self.profile.thickness);
+                    self.desc.border.fill_rings(&mut self.state);
                 }
             }
             Move::Clear => {
@@ -196,8 +197,10 @@ impl WaveGrid {
             return;
         }
         let dt = self.stepping.dt as f32;
+        let repeats = self.desc.border == Border::Periodic;
         for (point, out) in points.iter().zip(out) {
-            *out = cpu::sample::sample(&self.state, &self.place.window, &self.fade, dt, self.origin, *point);
+            let at = self.place.cell_of(*point, self.origin);
+            *out = cpu::sample::sample(&self.state, &self.place.window, &self.fade, dt, at, repeats);
         }
     }
 

@@ -99,7 +99,7 @@ impl WaveGrid {
 
 /// Cells that hulls may stand in, per axis: clear of the layer and of what feeds read.
 fn interior(desc: &GridDesc) -> [Range<usize>; 2] {
-    let rim = contour(desc.pml_width) + REACH;
+    let rim = contour(desc.border.width()) + REACH;
     desc.cells.map(|n| rim..n as usize - rim)
 }
 

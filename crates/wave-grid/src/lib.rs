@@ -53,6 +53,7 @@ mod tick;
 mod train;
 mod window;
 
+pub use border::Border;
 pub use cpu::tiles::{QUIET_FOAM, QUIET_HEIGHT};
 pub use desc::{GridDesc, MAX_SUBSTEPS, Scheme, Stepping, TILE};
 pub use error::GridError;

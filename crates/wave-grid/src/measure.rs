@@ -39,8 +39,10 @@ impl WaveGrid {
     /// Water above the ambient level, cubic metres, walls left out.
     pub fn volume(&self) -> f64 {
         let [hx, hz] = self.desc.cell_size.map(f64::from);
+        let (nx, nz) = (self.state.nx, self.state.nz);
         let open = |at: usize| self.cells().is_none_or(|cells| cells.is_open(at));
-        hx * hz * self.state.z.iter().enumerate().filter(|(at, _)| open(*at)).map(|(_, z)| f64::from(*z)).sum::<f64>()
+        let inside = (1..nz - 1).flat_map(|j| j * nx + 1..(j + 1) * nx - 1);
+        hx * hz * inside.filter(|at| open(*at)).map(|at| f64::from(self.state.z[at])).sum::<f64>()
     }
 
     /// Whether no value is NaN or infinite.

@@ -10,12 +10,13 @@ use crate::feed::{Feed, FeedLine};
 use crate::ground::{Cells, Ground};
 use crate::medium::{CellLaw, Medium, SharedMedium};
 use crate::state::State;
-use crate::{Edges, WaveGrid};
+use crate::{Border, Edges, WaveGrid};
 
 impl WaveGrid {
     /// Sets what the water lies in; `None` (default) is open deep water everywhere. May change while waves run: those in
-    /// what becomes wall or held water are let go, what a wall leaves behind is calm.
+    /// what becomes wall or held water are let go, what a wall leaves behind is calm. A grid that repeats takes none.
     pub fn set_medium(&mut self, medium: Option<Arc<dyn Medium>>) {
+        let medium = medium.filter(|_| self.desc.border != Border::Periodic);
         let law = CellLaw::new(&self.desc, &self.stepping);
         let corner = self.place.window.corner;
         // The ghosts of the old walls go, then whatever stands in the new ones.
@@ -55,8 +56,9 @@ impl WaveGrid {
     }
 
     /// Sets which sides of the window waves are fed through by [`Self::tick_fed`]; none by default. On those sides the
-    /// drawn height fades to zero at the contour instead of the window's edge.
+    /// drawn height fades to zero at the contour instead of the window's edge. A border that absorbs nothing takes none.
     pub fn set_feed(&mut self, edges: Edges) {
+        let edges = if self.desc.border.has_ring() { Edges::default() } else { edges };
         self.place.fed = edges;
         self.feed = edges.any().then(|| self.new_feed(edges));
         self.update_fade();

@@ -6,7 +6,7 @@ use crate::cpu::step::{Keep, Setting};
 use crate::cpu::tiles::Mode;
 use crate::feed::{Feed, Incident};
 use crate::ground::{Cells, REACH};
-use crate::{WaveGrid, cpu};
+use crate::{Border, WaveGrid, cpu};
 
 impl WaveGrid {
     /// Advances by one tick. A grid at rest returns at once.
@@ -32,7 +32,7 @@ impl WaveGrid {
             feed.wake(&mut self.tiles, self.state.nx);
         }
         if self.skipping {
-            self.tiles.schedule();
+            self.desc.border.schedule(&mut self.tiles);
         } else {
             self.tiles.activate_all();
         }
@@ -53,7 +53,11 @@ impl WaveGrid {
             self.carrier = Some(Carrier::new([self.state.nx, self.state.nz], self.profile.thickness));
         }
         self.tops.resize(self.tiles.tiles.len(), 0.0);
-        let moves = self.moving && self.matched && fed.is_none() && self.tiles.all_plain();
+        let moves = self.moving
+            && matches!(self.desc.border, Border::Absorbing { .. })
+            && self.matched
+            && fed.is_none()
+            && self.tiles.all_plain();
         for substep in 0..self.stepping.substeps {
             // After a tick of one sub-step the older state is that of the tick before, but where it was carried on.
             let keep = match (substep, self.stepping.substeps) {
@@ -72,6 +76,7 @@ impl WaveGrid {
                 a: self.stepping.a,
                 moves,
             };
+            self.desc.border.fill_ring(&mut self.state.z, [self.state.nx, self.state.nz]);
             let held = self.drift.held;
             let mut motion = Motion::default();
             let mut moving = None;
@@ -113,6 +118,9 @@ impl WaveGrid {
         }
         let cells = self.ground.as_ref().and_then(|ground| ground.cells.as_ref());
         cpu::foam::settle(&mut self.state, &mut self.tiles, cells, self.law);
+        if self.desc.border.has_ring() {
+            self.desc.border.fill_rings(&mut self.state);
+        }
         self.captured = false;
     }
 

@@ -3,7 +3,7 @@
 use glam::{DVec2, Vec2};
 
 use crate::feed::{Edges, contour};
-use crate::{GridDesc, desc::TILE};
+use crate::{Border, GridDesc, desc::TILE};
 
 /// How far, in cells, the target may stray from the middle of the window before it shifts: one cell keeps a bobbing
 /// body from shifting the window to and fro.
@@ -75,7 +75,7 @@ pub(crate) struct Place {
     pub(crate) lean: [f64; 2],
     /// Extent without the border layer, cells.
     interior: [i64; 2],
-    pml_width: u32,
+    border: Border,
     /// Sides where the fade ends at the feed's contour.
     pub(crate) fed: Edges,
 }
@@ -83,13 +83,29 @@ pub(crate) struct Place {
 impl Place {
     /// A window whose middle is the world's origin.
     pub(crate) fn new(desc: &GridDesc) -> Self {
-        let rim = 2 * (i64::from(desc.pml_width) + 1);
+        let rim = 2 * (i64::from(desc.border.width()) + 1);
         let window =
             Window { corner: desc.cells.map(|n| -(i64::from(n) / 2)), cells: desc.cells, cell_size: desc.cell_size };
         let interior = desc.cells.map(|n| i64::from(n) - rim);
-        let mut place = Self { window, lean: [0.0; 2], interior, pml_width: desc.pml_width, fed: Edges::default() };
+        let mut place = Self { window, lean: [0.0; 2], interior, border: desc.border, fed: Edges::default() };
         place.lean = place.stray(DVec2::ZERO);
         place
+    }
+
+    /// A local point in units of cells from the corner, within the window where that repeats.
+    pub(crate) fn cell_of(&self, point: Vec2, origin: DVec2) -> DVec2 {
+        let at = self.window.cells_from_corner(point, origin);
+        if self.border != Border::Periodic {
+            return at;
+        }
+        // The four cells around it are then within the window, ring included.
+        let period = self.period();
+        at - ((at - 1.5) / period).floor() * period
+    }
+
+    /// Cells after which a window that repeats does.
+    pub(crate) fn period(&self) -> DVec2 {
+        DVec2::new(f64::from(self.window.cells[0]), f64::from(self.window.cells[1])) - 2.0
     }
 
     fn stray(&self, target: DVec2) -> [f64; 2] {
@@ -99,6 +115,9 @@ impl Place {
 
     /// Brings the middle within the dead-band of a world point. Points that are not finite or absurdly far are ignored.
     pub(crate) fn follow(&mut self, target: DVec2) -> Move {
+        if self.border == Border::Periodic {
+            return Move::Stay;
+        }
         let stray = self.stray(target);
         if !stray.iter().all(|s| s.is_finite()) || (target / self.window.h()).abs().max_element() > FARTHEST {
             return Move::Stay;
@@ -129,10 +148,13 @@ impl Place {
 
     /// One axis' factor of the fade at a place in cells from the corner.
     pub(crate) fn fade_of(&self, axis: usize, x: f64) -> f32 {
+        if self.border.has_ring() {
+            return 1.0;
+        }
         let [middle, outer] = self.fade_reach(axis);
         let cells = f64::from(self.window.cells[axis]);
         let [fed_low, fed_high] = self.fed.of(axis);
-        let contour = contour(self.pml_width) as f64;
+        let contour = contour(self.border.width()) as f64;
         let low = if fed_low { contour } else { middle - outer };
         let high = if fed_high { cells - contour } else { middle + outer };
         let width = |fed: bool| if fed { FED_FADE } else { self.fade_width() };
@@ -149,6 +171,6 @@ impl Place {
 
     /// Cells over which the fade rises.
     pub(crate) fn fade_width(&self) -> f64 {
-        f64::from(self.pml_width)
+        f64::from(self.border.width())
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::Vec2;
-use wave_grid::{GridDesc, Scheme, Source, WaveGrid};
+use wave_grid::{Border, GridDesc, Scheme, Source, WaveGrid};
 
 fn desc(cells: [u32; 2], scheme: Scheme, a: f64) -> GridDesc {
     let speed = a.sqrt() * 0.5 * 60.0;
@@ -69,14 +69,15 @@ fn phase_velocity_is_the_schemes_and_near_the_exact_one() {
 
 /// Error over the peak at the border, dB: a Ricker pulse in an interior of 128 x 128 cells, against a domain whose
 /// border the waves cannot reach and return from.
-fn pulse_error(pml_width: u32, scheme: Scheme, a: f64, at: [f32; 2]) -> f64 {
+fn pulse_error(width: u32, scheme: Scheme, a: f64, at: [f32; 2]) -> f64 {
     let steps = 420;
-    let rim = pml_width as usize + 1;
+    let rim = width as usize + 1;
+    let border = Border::Absorbing { width };
     let pad = (f64::from(steps) * a.sqrt() * 0.525) as usize + 12;
     let small_n = 128 + 2 * rim;
     let large_n = 128 + 2 * (pad + rim);
-    let mut small = WaveGrid::new(GridDesc { pml_width, ..desc([small_n as u32; 2], scheme, a) }).unwrap();
-    let mut large = WaveGrid::new(GridDesc { pml_width, ..desc([large_n as u32; 2], scheme, a) }).unwrap();
+    let mut small = WaveGrid::new(GridDesc { border, ..desc([small_n as u32; 2], scheme, a) }).unwrap();
+    let mut large = WaveGrid::new(GridDesc { border, ..desc([large_n as u32; 2], scheme, a) }).unwrap();
     let f0 = a.sqrt() / 20.0;
     let (mut error, mut peak) = (0.0f64, 0.0f64);
     for t in 0..steps {

@@ -2,16 +2,24 @@
 //! return from; bounded and reproducible whatever the window does.
 
 use glam::{DVec2, Vec2};
-use wave_grid::{GridDesc, Scheme, Source, WaveGrid};
+use wave_grid::{Border, GridDesc, Scheme, Source, WaveGrid};
 
 const INTERIOR: i64 = 96;
 const STEPS: usize = 300;
 
-fn desc(cells: [u32; 2], pml_width: u32) -> GridDesc {
+fn desc(cells: [u32; 2], width: u32) -> GridDesc {
     // a = 0.45, a sub-step a tick, cells of a metre.
     let wave_speed = 0.45f32.sqrt() * 100.0;
     let (scheme, tick) = (Scheme::FivePoint, 0.01);
-    GridDesc { cells, cell_size: [1.0; 2], wave_speed, scheme, pml_width, tick, ..GridDesc::default() }
+    GridDesc {
+        cells,
+        cell_size: [1.0; 2],
+        wave_speed,
+        scheme,
+        border: Border::Absorbing { width },
+        tick,
+        ..GridDesc::default()
+    }
 }
 
 /// What a source that keeps up with the window adds in a step.

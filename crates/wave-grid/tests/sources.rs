@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Vec2};
 use proptest::prelude::*;
-use wave_grid::{GridDesc, GridError, HEIGHT_LIMIT, QUIET_HEIGHT, Scheme, Source, WaveGrid};
+use wave_grid::{Border, GridDesc, GridError, HEIGHT_LIMIT, QUIET_HEIGHT, Scheme, Source, WaveGrid};
 
 fn desc(cells: u32) -> GridDesc {
     GridDesc { cells: [cells; 2], wave_speed: 20.0, ..Default::default() }
@@ -213,7 +213,7 @@ fn bad_descriptions_are_named() {
         (bad(|d| d.cells = [16, 64]), "cells[0] = 16"),
         (bad(|d| d.cell_size[0] = 0.0), "cell_size[0] = 0"),
         (bad(|d| d.wave_speed = f32::NAN), "wave_speed = NaN"),
-        (bad(|d| d.pml_width = 40), "pml_width = 40"),
+        (bad(|d| d.border = Border::Absorbing { width: 40 }), "border: width = 40"),
         (bad(|d| d.damping = -1.0), "damping = -1"),
         (bad(|d| d.tick = f32::INFINITY), "tick = inf"),
         (bad(|d| d.substeps = Some(0)), "substeps = 0"),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
-use wave_grid::{CellKind, GridDesc, Medium, MediumCell, Scheme, Source};
+use wave_grid::{Border, CellKind, GridDesc, Medium, MediumCell, Scheme, Source};
 
 use crate::context::Context;
 use crate::grid_step::{Twins, stone, twins};
@@ -48,7 +48,13 @@ fn a_medium_is_the_same_on_both_sides() {
     let descs = [
         GridDesc { cells: [128, 128], wave_speed: 25.0, ..Default::default() },
         GridDesc { cells: [150, 101], wave_speed: 40.0, scheme: Scheme::FivePoint, damping: 0.1, ..Default::default() },
-        GridDesc { cells: [96, 112], cell_size: [0.5, 0.8], wave_speed: 45.0, pml_width: 8, ..Default::default() },
+        GridDesc {
+            cells: [96, 112],
+            cell_size: [0.5, 0.8],
+            wave_speed: 45.0,
+            border: Border::Absorbing { width: 8 },
+            ..Default::default()
+        },
     ];
     let mut twins = twins(&context, &descs);
     let ticks = 500;

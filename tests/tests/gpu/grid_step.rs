@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Vec2};
 use wave_grid::gpu::{GpuGridId, GpuGrids};
-use wave_grid::{GridDesc, Scheme, Source, WaveGrid};
+use wave_grid::{Border, GridDesc, Scheme, Source, WaveGrid};
 
 use crate::context::Context;
 
@@ -108,11 +108,17 @@ fn a_thousand_ticks_equal_the_cpu() {
             cells: [150, 101],
             wave_speed: 40.0,
             scheme: Scheme::FivePoint,
-            pml_width: 16,
+            border: Border::Absorbing { width: 16 },
             damping: 0.1,
             ..Default::default()
         },
-        GridDesc { cells: [96, 112], cell_size: [0.5, 0.8], wave_speed: 45.0, pml_width: 8, ..Default::default() },
+        GridDesc {
+            cells: [96, 112],
+            cell_size: [0.5, 0.8],
+            wave_speed: 45.0,
+            border: Border::Absorbing { width: 8 },
+            ..Default::default()
+        },
     ];
     let mut twins = twins(&context, &descs);
     let mut peak = [0.0f32; 3];

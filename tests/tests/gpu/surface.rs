@@ -5,7 +5,7 @@ mod land;
 
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyId, BodyState, BodyStates, Consumers, Controls, Follow, FramePlan, GridDesc, GridHome, Hull,
+    BodyDesc, BodyId, BodyState, BodyStates, Border, Consumers, Controls, Follow, FramePlan, GridDesc, GridHome, Hull,
     OpenWater, OpenWaterDesc, Preset, Reason, SkippedWork, View, WaterSample, Work,
 };
 use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_layout};
@@ -44,7 +44,12 @@ fn scene(context: Option<&Context>, desc: OpenWaterDesc) -> Scene {
     store.insert(boat, water.body(boat).unwrap().state());
     water.set_controls(boat, Controls { throttle: 0.8, steering: 0.5, ..Controls::default() }).unwrap();
     water
-        .add_grid(GridDesc { follow: Follow::Body(boat), cells: [128; 2], pml_width: 8, ..GridDesc::default() })
+        .add_grid(GridDesc {
+            follow: Follow::Body(boat),
+            cells: [128; 2],
+            border: Border::Absorbing { width: 8 },
+            ..GridDesc::default()
+        })
         .unwrap();
     let float = Hull::cuboid(Vec3::splat(0.6)).unwrap();
     for i in 0..8 {
@@ -176,7 +181,12 @@ fn what_nobody_reads_is_not_run() {
 fn a_grid_that_sleeps_is_neither_sent_nor_listed() {
     let context = Context::new();
     let mut water = OpenWater::new(&context.device, &context.queue, calm()).unwrap();
-    let grid = GridDesc { follow: Follow::Fixed(DVec2::ZERO), cells: [64; 2], pml_width: 8, ..GridDesc::default() };
+    let grid = GridDesc {
+        follow: Follow::Fixed(DVec2::ZERO),
+        cells: [64; 2],
+        border: Border::Absorbing { width: 8 },
+        ..GridDesc::default()
+    };
     water.add_grid(grid).unwrap();
     for tick in water.advance(DT) {
         water.tick(tick, &mut BodyStates::default()).unwrap();
@@ -198,7 +208,7 @@ fn wild_frames_leave_no_validation_error() {
             let mut state = *scene.store.get(scene.boat).unwrap();
             state.position += Vec3::new(3_000.0, 0.0, -2_000.0);
             scene.store.insert(scene.boat, state);
-            let extra = GridDesc { cells: [96, 64], pml_width: 8, ..GridDesc::default() };
+            let extra = GridDesc { cells: [96, 64], border: Border::Absorbing { width: 8 }, ..GridDesc::default() };
             scene.water.add_grid(extra).unwrap();
         }
     }
@@ -218,7 +228,8 @@ fn a_grid_homed_on_the_gpu_comes_back_with_its_age() {
         let hull = Hull::cuboid(Vec3::splat(1.0)).unwrap();
         let dropped = scene.water.add_body(BodyDesc::from_hull(&hull, 500.0)).unwrap();
         let follow = Follow::Body(dropped);
-        let desc = GridDesc { follow, home, cells: [96; 2], pml_width: 8, ..GridDesc::default() };
+        let desc =
+            GridDesc { follow, home, cells: [96; 2], border: Border::Absorbing { width: 8 }, ..GridDesc::default() };
         let grid = scene.water.add_grid(desc).unwrap();
         scene.store.insert(dropped, BodyState::at_rest(Vec3::new(0.0, 0.8, 0.0)));
         for _ in 0..40 {

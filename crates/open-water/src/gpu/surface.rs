@@ -8,7 +8,7 @@ use open_water_shaders::surface::{self, HIDDEN_SLOPE_BIAS, SurfaceCascade, Surfa
 
 use super::land::{Land, LandTexels};
 use crate::OpenWaterError;
-use crate::grids::Grid;
+use crate::grids::{Grid, REACH};
 
 /// Looks repeat their time after this long, so that it stays exact in an f32, seconds.
 const LOOKS_TIME: f64 = 3600.0;
@@ -140,7 +140,9 @@ impl SurfaceBinding {
                 base: grid.base,
                 cells: window.cells,
                 gain: grid.gain,
-                ..SurfaceGrid::default()
+                middle: grid.middle.into(),
+                reach: REACH,
+                tiled: u32::from(grid.repeats()),
             };
             table.grid_count += 1;
         }

@@ -62,7 +62,7 @@ impl Grid {
     }
 
     pub(super) fn profile(&self) -> Profile {
-        Profile::new(self.desc.pml_width, self.stepping.a, self.moving)
+        Profile::new(self.desc.border, self.stepping.a, self.moving)
     }
 
     /// Where window cell (0, 0) is stored.

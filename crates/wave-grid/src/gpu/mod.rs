@@ -26,7 +26,7 @@ use crate::cpu::foam::FoamLaw;
 use crate::medium::{Medium, SharedMedium};
 use crate::source::footprint::{Footprint, Shape, Site};
 use crate::window::{Move, Place};
-use crate::{GridDesc, GridError, Source, Window};
+use crate::{Border, GridDesc, GridError, Source, Window};
 
 use activity::Activity;
 use buffers::Buffers;
@@ -95,9 +95,13 @@ impl GpuGrids {
     /// Adds a calm grid around the world's origin.
     ///
     /// # Errors
-    /// As [`crate::WaveGrid::new`], and when there are [`MAX_GRIDS`] already.
+    /// As [`crate::WaveGrid::new`], when its border does not absorb by a matched layer, and when there are [`MAX_GRIDS`] already.
     pub fn insert(&mut self, desc: GridDesc) -> Result<GpuGridId, GridError> {
         let stepping = desc.stepping()?;
+        if !matches!(desc.border, Border::Absorbing { .. }) {
+            let bound = "absorbing: grids on the GPU have no other";
+            return Err(GridError::InvalidValue { field: "border: width", value: desc.border.width().into(), bound });
+        }
         let count = self.grids.iter().filter(|grid| !grid.removed).count();
         if count >= MAX_GRIDS {
             let value = count as f64 + 1.0;
@@ -202,7 +206,7 @@ impl GpuGrids {
         let origin = self.origin;
         let [first, second] = &mut self.weights;
         let grid = &mut self.grids[id.0];
-        let rim = grid.desc.pml_width as usize + 2;
+        let rim = grid.desc.border.width() as usize + 2;
         let site = Site { window: &grid.place.window, origin, rim, cells: grid.cells() };
         let parts = site.place(source, [first, second]);
         let known = |part: &Footprint| matches!(part.shape, Shape::Disc { .. }) && part.head == 0.0;

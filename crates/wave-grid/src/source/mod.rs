@@ -7,6 +7,7 @@
 pub(crate) mod footprint;
 mod maker;
 mod rain;
+mod tiled;
 mod write;
 
 use glam::Vec2;

@@ -2,7 +2,7 @@
 
 use super::footprint::{Footprint, Site};
 use super::{HEIGHT_LIMIT, Rain, Source};
-use crate::WaveGrid;
+use crate::{Border, WaveGrid, Window};
 
 impl WaveGrid {
     /// Adds a disturbance to be felt from the next tick on. Returns whether it was: a source that is not finite, has a
@@ -18,12 +18,19 @@ impl WaveGrid {
     /// Lets the rain of a tick fall: every drop whose footprint is clear of the border layer and walls. `tick` counts
     /// ticks of this grid's [`crate::GridDesc::tick`]. Returns how many fell.
     pub fn add_rain(&mut self, rain: &Rain, tick: u64) -> usize {
-        let window = self.place.window;
+        let mut window = self.place.window;
+        if self.desc.border == Border::Periodic {
+            // Its ring is not its own.
+            window = Window { corner: window.corner.map(|c| c + 1), cells: window.cells.map(|n| n - 2), ..window };
+        }
         let drops = rain.drops(&window, self.origin, tick, self.desc.tick);
         drops.filter(|drop| self.put(*drop)).count()
     }
 
     fn put(&mut self, source: Source) -> bool {
+        if self.desc.border == Border::Periodic {
+            return self.put_tiled(source);
+        }
         let mut weights = std::mem::take(&mut self.weights);
         let [first, second] = &mut weights;
         let rim = self.source_rim();
