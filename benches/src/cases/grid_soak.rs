@@ -109,7 +109,7 @@ impl Soak {
     /// Moves the window: at times it stands, at times it is faster than the waves, seldom it is elsewhere.
     fn wander(&mut self, tick: usize) {
         let random = &mut self.random;
-        if tick % 40 == 0 {
+        if tick.is_multiple_of(40) {
             let speed = random.within(-0.5, 2.0).max(0.0) * f64::from(self.grid.desc().wave_speed);
             self.velocity = DVec2::from_angle(random.within(0.0, std::f64::consts::TAU)) * speed;
             if random.within(0.0, 1.0) < 0.01 {
@@ -130,7 +130,7 @@ impl Soak {
             put += (now - energy).max(0.0);
             energy = now;
         };
-        if tick % 300 == 0 {
+        if tick.is_multiple_of(300) {
             let bed = Bed { kind: (tick / 300) % 4, seed: tick as i64, cell: f64::from(self.grid.desc().cell_size[0]) };
             self.grid.set_medium((bed.kind > 0).then(|| Arc::new(bed) as Arc<dyn Medium>));
             count(&self.grid);
@@ -138,7 +138,7 @@ impl Soak {
         let random = &mut self.random;
         let center = Vec2::new(random.within(-2.5, 2.5) as f32, random.within(-2.5, 2.5) as f32);
         let radius = random.within(0.0, 0.8) as f32;
-        let source = if tick % 16 == 0 {
+        let source = if tick.is_multiple_of(16) {
             Source::Turbulence { center, radius, foam: 0.5 }
         } else {
             Source::Displacement { center, radius, volume: random.within(-0.05, 0.05) as f32 }

@@ -67,7 +67,7 @@ fn ticks(effort: Effort, variant: &str, desc: GridDesc, threads: usize, error: f
     let layer = (whole.median_ns - less.median_ns) / (wide - narrow);
     let interior = Timing { median_ns: whole.median_ns - layer * wide, ..whole };
     let row = |part: &str, timing: &Timing, timed: &str| {
-        Row::new("grid_step", &format!("{variant}, {part}, {threads} threads"))
+        Row::new("grid_step", format!("{variant}, {part}, {threads} threads"))
             .param("cells", cells)
             .param("threads", threads as u64)
             .param("triad_share", limit.median_ns / timing.median_ns)

@@ -13,6 +13,7 @@ use crate::cpu::kernels::flush;
 use crate::cpu::tiles::{Mode, Tiles};
 use crate::desc::TILE;
 use crate::ground::Cells;
+use crate::source::HEIGHT_LIMIT;
 
 /// Cells inside the border layer over which a current fades.
 const FADE: f32 = 24.0;
@@ -130,7 +131,8 @@ impl<'a> Sweep<'a> {
             let at = j * nx + x.start;
             let (out, z, low, high) = (&mut out[at..at + n], &z[at..at + n], &below[..n], &above[..n]);
             for i in 0..n {
-                out[i] = flush(z[i] - (high[i] - low[i]));
+                // Where a strong current meets walls waves grow.
+                out[i] = flush((z[i] - (high[i] - low[i])).clamp(-HEIGHT_LIMIT, HEIGHT_LIMIT));
             }
             flux.swap(0, 1);
         }
