@@ -11,6 +11,7 @@ mod grid_gpu;
 mod grid_gpu_error;
 mod grid_gpu_plain;
 mod grid_medium;
+mod grid_moving;
 mod grid_phase;
 mod grid_shore;
 mod grid_soak;
@@ -57,6 +58,7 @@ pub const CASES: &[Case] = &[
     grid_wake::WEDGE,
     grid_gap::DIFFRACTION,
     grid_border::PML,
+    grid_moving::MOVING,
     grid_border::SHIFT,
     grid_step::STEP,
     grid_tiles::TILES,
