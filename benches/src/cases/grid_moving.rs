@@ -80,8 +80,14 @@ fn moving(context: &Context) -> Result<Vec<Row>, CaseError> {
                         .param("width", run.width)
                         .error(decibels, "dB", "a larger domain; over the peak at the border")
                         .time("a tick of the whole window", &timing);
+                    // The prototypes' source was a force; for this one their own layer is 5 dB worse at 0.75.
+                    let harder = speed == 0.75 && kind == "oscillating";
                     if run.matched && five && run.width == 16 {
-                        row = row.bound(bound);
+                        row = if harder {
+                            row.note("-50 dB before, for a force; no bound here")
+                        } else {
+                            row.bound(bound)
+                        };
                     }
                     rows.push(row);
                 }

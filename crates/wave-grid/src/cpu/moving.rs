@@ -80,7 +80,14 @@ impl MovingLayer {
                         let within = |from: usize, to: usize| span.start.max(from)..span.end.min(to);
                         let both = [within(1, 1 + s.strip + more), within(nx - 1 - s.strip, last)];
                         let pieces = if all || narrow { [within(1, last), 0..0] } else { both };
-                        list.extend(pieces.into_iter().filter(|x| !x.is_empty()).map(|x| Piece { j, x, tile }));
+                        for x in pieces.into_iter().filter(|x| !x.is_empty()) {
+                            match list.last_mut() {
+                                Some(piece) if more > 0 && piece.j == j && piece.x.end == x.start => {
+                                    piece.x.end = x.end
+                                }
+                                _ => list.push(Piece { j, x, tile }),
+                            }
+                        }
                     };
                     add(&mut self.edges, j <= w + 1 || j >= nz - 1 - w, 1, nx);
                     if j < nz - 1 {
@@ -148,32 +155,40 @@ impl MovingLayer {
         let (nx, nz) = (state.nx, state.nz);
         let [x, y] = &self.tables;
         let [bx, bz] = boost.axes;
-        let [px, pz] = [&state.phi[0], &state.phi[1]];
-        let z = &state.z;
+        let [px, pz]: [&[f32]; 2] = [&state.phi[0], &state.phi[1]];
+        let z: &[f32] = &state.z;
         let [gathered_x, gathered_z] = &mut self.gathered;
         let across_x = bx.gamma * (1.0 - bz.gamma * bz.gamma * bx.beta * bx.beta);
         let across_z = bz.gamma * (1.0 - bx.gamma * bx.gamma * bz.beta * bz.beta);
         for Piece { j, x: run, .. } in &self.edges {
             let j = *j;
+            let (at, n) = (j * nx + run.start, run.len());
+            let around = |at: usize, n: usize| [&z[at - nx..][..n], &z[at..][..n]];
+            let (edge, node) = (&x.edge[run.start..][..n], &x.node[run.start..][..n]);
             if j < nz - 1 {
-                for i in run.clone() {
-                    let at = j * nx + i;
-                    let (own, other) = (x.edge[i], y.node[j]);
-                    let beside = (z[at + nx] - z[at + nx - 1]) + (z[at - nx] - z[at - nx - 1]);
-                    let flux = k.straight[0] * (z[at] - z[at - 1]) + k.beside[0] * beside;
-                    let source =
-                        (other * across_x - own / bx.gamma) * flux + own * own * bx.kappa * (0.5 * (z[at] + z[at - 1]));
-                    gathered_x[at] = (boost.gamma - 0.5 * own) * px[at] + 0.5 * source;
+                let ([south, here], [south_west, west]) = (around(at, n), around(at - 1, n));
+                let (north, north_west) = (&z[at + nx..][..n], &z[at + nx - 1..][..n]);
+                let (out, phi, other) = (&mut gathered_x[at..][..n], &px[at..][..n], y.node[j]);
+                for i in 0..n {
+                    let own = edge[i];
+                    let beside = (north[i] - north_west[i]) + (south[i] - south_west[i]);
+                    let flux = k.straight[0] * (here[i] - west[i]) + k.beside[0] * beside;
+                    let stood = own * own * bx.kappa * (0.5 * (here[i] + west[i]));
+                    let source = (other * across_x - own / bx.gamma) * flux + stood;
+                    out[i] = (boost.gamma - 0.5 * own) * phi[i] + 0.5 * source;
                 }
             }
-            for i in run.start..run.end.min(nx - 1) {
-                let at = j * nx + i;
-                let (own, other) = (y.edge[j], x.node[i]);
-                let beside = (z[at + 1] - z[at - nx + 1]) + (z[at - 1] - z[at - nx - 1]);
-                let flux = k.straight[1] * (z[at] - z[at - nx]) + k.beside[1] * beside;
-                let source =
-                    (other * across_z - own / bz.gamma) * flux + own * own * bz.kappa * (0.5 * (z[at] + z[at - nx]));
-                gathered_z[at] = (boost.gamma - 0.5 * own) * pz[at] + 0.5 * source;
+            let n = run.end.min(nx - 1) - run.start;
+            let ([south_west, west], [south, here]) = (around(at - 1, n), around(at, n));
+            let [south_east, east] = around(at + 1, n);
+            let (out, phi, own) = (&mut gathered_z[at..][..n], &pz[at..][..n], y.edge[j]);
+            let node = &node[..n];
+            for i in 0..n {
+                let beside = (east[i] - south_east[i]) + (west[i] - south_west[i]);
+                let flux = k.straight[1] * (here[i] - south[i]) + k.beside[1] * beside;
+                let stood = own * own * bz.kappa * (0.5 * (here[i] + south[i]));
+                let source = (node[i] * across_z - own / bz.gamma) * flux + stood;
+                out[i] = (boost.gamma - 0.5 * own) * phi[i] + 0.5 * source;
             }
         }
     }
@@ -223,13 +238,17 @@ impl MovingLayer {
         for Piece { j, x: run, .. } in &self.edges {
             let ends = [run.end * usize::from(*j < nz - 1), run.end.min(nx - 1)];
             for (k, end) in ends.into_iter().enumerate() {
-                let (gathered, moved) = (&self.gathered[k], &self.moved[k]);
-                for i in run.start..end {
-                    let at = j * nx + i;
-                    let (own, other) = if k == 0 { (x.edge[i], y.node[*j]) } else { (y.edge[*j], x.node[i]) };
-                    let source = gathered[at] - (boost.gamma - 0.5 * own) * state.phi[k][at];
-                    let next = (moved[at] + source) / (boost.gamma + 0.5 * own);
-                    state.phi_next[k][at] = if own > 0.0 || other > 0.0 { flush(next) } else { 0.0 };
+                let n = end.saturating_sub(run.start);
+                let at = j * nx + run.start;
+                let (gathered, moved) = (&self.gathered[k][at..][..n], &self.moved[k][at..][..n]);
+                let (phi, out) = (&state.phi[k][at..][..n], &mut state.phi_next[k][at..][..n]);
+                let along = if k == 0 { &x.edge } else { &x.node };
+                let (along, across) = (&along[run.start..][..n], if k == 0 { y.node[*j] } else { y.edge[*j] });
+                for i in 0..n {
+                    let own = if k == 0 { along[i] } else { across };
+                    let source = gathered[i] - (boost.gamma - 0.5 * own) * phi[i];
+                    let next = flush((moved[i] + source) / (boost.gamma + 0.5 * own));
+                    out[i] = if along[i] + across > 0.0 { next } else { 0.0 };
                 }
             }
         }
@@ -241,44 +260,53 @@ impl MovingLayer {
         let [x, y] = &self.tables;
         let [bx, bz] = boost.axes;
         let State { z, old, phi, phi_next, .. } = state;
-        let [px, pz, nx_, nz_] = [&phi[0], &phi[1], &phi_next[0], &phi_next[1]];
+        let z: &[f32] = z;
+        let [px, pz, nx_, nz_]: [&[f32]; 4] = [&phi[0], &phi[1], &phi_next[0], &phi_next[1]];
         let square = |b: &Pull| b.gamma * b.gamma / boost.gamma;
         let damp = [square(&bx), square(&bz)];
         let [damped_x, damped_z] = [damp[0] * (1.0 + bx.beta * bx.beta), damp[1] * (1.0 + bz.beta * bz.beta)];
         for Piece { j, x: run, tile } in &self.nodes {
             let j = *j;
             let (z2, e2) = (y.node[j], [y.edge[j], y.edge[j + 1]]);
-            for i in run.clone() {
-                let at = j * nx + i;
-                let (c, w, e, s, n) = (z[at], z[at - 1], z[at + 1], z[at - nx], z[at + nx]);
-                let (sw, se, nw, ne) = (z[at - nx - 1], z[at - nx + 1], z[at + nx - 1], z[at + nx + 1]);
-                let flux_w = k.straight[0] * (c - w) + k.beside[0] * ((n - nw) + (s - sw));
-                let flux_e = k.straight[0] * (e - c) + k.beside[0] * ((ne - n) + (se - s));
+            let (first, n) = (run.start, run.len());
+            let at = j * nx + first;
+            let [below, row, above] = [at - nx, at, at + nx].map(|at| &z[at - 1..][..n + 2]);
+            let (south_west, south, south_east) = (&below[..n], &below[1..][..n], &below[2..][..n]);
+            let (west, here, east) = (&row[..n], &row[1..][..n], &row[2..][..n]);
+            let (north_west, north, north_east) = (&above[..n], &above[1..][..n], &above[2..][..n]);
+            let (node, edge0, edge1) = (&x.node[first..][..n], &x.edge[first..][..n], &x.edge[first + 1..][..n]);
+            let at_x = [px, nx_].map(|a| [&a[at..][..n], &a[at + 1..][..n]]);
+            let at_z = [pz, nz_].map(|a| [&a[at..][..n], &a[at + nx..][..n]]);
+            let old = &mut old[at..][..n];
+            for i in 0..n {
+                let (c, w, e, s, t) = (here[i], west[i], east[i], south[i], north[i]);
+                let (sw, se, nw, ne) = (south_west[i], south_east[i], north_west[i], north_east[i]);
+                let flux_w = k.straight[0] * (c - w) + k.beside[0] * ((t - nw) + (s - sw));
+                let flux_e = k.straight[0] * (e - c) + k.beside[0] * ((ne - t) + (se - s));
                 let flux_s = k.straight[1] * (c - s) + k.beside[1] * ((e - se) + (w - sw));
-                let flux_n = k.straight[1] * (n - c) + k.beside[1] * ((ne - e) + (nw - w));
+                let flux_n = k.straight[1] * (t - c) + k.beside[1] * ((ne - e) + (nw - w));
                 // Mean of three sub-steps of waves across each axis.
                 let mean = |c: f32, a: f32, low: f32, high: f32| c + 0.25 * a * ((low - c) + (high - c));
-                let (in_x, in_z) = (mean(c, bz.a, s, n), mean(c, bx.a, w, e));
-                let (west, east) = (mean(w, bz.a, sw, nw), mean(e, bz.a, se, ne));
-                let (south, north) = (mean(s, bx.a, sw, se), mean(n, bx.a, nw, ne));
-                let (z1, e1) = (x.node[i], [x.edge[i], x.edge[i + 1]]);
-                let drift = bx.v * (0.5 * (east - west));
-                let drift_z = bz.v * (0.5 * (north - south));
-                let [q_w, q_e] = [px[at] + nx_[at], px[at + 1] + nx_[at + 1]];
-                let [q_s, q_n] = [pz[at] + nz_[at], pz[at + nx] + nz_[at + nx]];
+                let (in_x, in_z) = (mean(c, bz.a, s, t), mean(c, bx.a, w, e));
+                let (mean_w, mean_e) = (mean(w, bz.a, sw, nw), mean(e, bz.a, se, ne));
+                let (mean_s, mean_n) = (mean(s, bx.a, sw, se), mean(t, bx.a, nw, ne));
+                let (z1, e1) = (node[i], [edge0[i], edge1[i]]);
+                let drift = bx.v * (0.5 * (mean_e - mean_w));
+                let drift_z = bz.v * (0.5 * (mean_n - mean_s));
+                let [q_w, q_e] = [at_x[0][0][i] + at_x[1][0][i], at_x[0][1][i] + at_x[1][1][i]];
+                let [q_s, q_n] = [at_z[0][0][i] + at_z[1][0][i], at_z[0][1][i] + at_z[1][1][i]];
                 let plain = (flux_e - flux_w) + (flux_n - flux_s);
                 let layer = 0.5 * ((q_e - q_w) / bx.gamma + (q_n - q_s) / bz.gamma);
                 let along = (damp[0] * z1 - damp[1] * z2) * (drift_z - drift);
-                let own_x = own(&bx, z1, e1, [q_w + q_e, drift, c], [west, in_x, east]);
-                let own_z = own(&bz, z2, e2, [q_s + q_n, drift_z, c], [south, in_z, north]);
+                let own_x = own(&bx, z1, e1, [q_w + q_e, drift, c], [mean_w, in_x, mean_e]);
+                let own_z = own(&bz, z2, e2, [q_s + q_n, drift_z, c], [mean_s, in_z, mean_n]);
                 let (half, corner) = (0.5 * (damped_x * z1 + damped_z * z2), 0.25 * z1 * z2);
                 let keep = 1.0 - half + corner - k.damping;
-                let still = keep * (c - old[at]) - 4.0 * corner * c;
+                let still = keep * (c - old[i]) - 4.0 * corner * c;
                 let rest = (plain + layer) + (along + (own_x + own_z));
-                let next = flush(c + (still + rest) / (1.0 + half + corner + k.damping));
-                old[at] = next;
-                note(&mut tops[*tile], next);
+                old[i] = flush(c + (still + rest) / (1.0 + half + corner + k.damping));
             }
+            old.iter().for_each(|z| note(&mut tops[*tile], *z));
         }
     }
 }
