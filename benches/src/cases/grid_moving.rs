@@ -1,7 +1,7 @@
 //! Case `pml_moving`: what the border sends back in a window that follows a source.
 
 use glam::DVec2;
-use wave_grid::{GridDesc, Scheme, Source, WaveGrid};
+use wave_grid::{Border, GridDesc, Scheme, Source, WaveGrid};
 
 use crate::evidence::{Axis, Case, CaseError, Context, Plot, Row, measure};
 
@@ -14,7 +14,7 @@ pub(super) const MOVING: Case = Case {
         title: "Moving border: error over the peak at the border against speed over the waves'",
         x: Axis::Param("speed_over_c"),
         y: Axis::Error,
-        label: Some("width"),
+        label: None,
     }],
     run: moving,
 };
@@ -31,7 +31,7 @@ const BEFORE: [(f64, [f64; 2]); 5] = [
 ];
 
 struct Run {
-    variant: &'static str,
+    variant: String,
     width: u32,
     matched: bool,
     grid: WaveGrid,
@@ -46,7 +46,7 @@ fn desc(scheme: Scheme, cells: [u32; 2], width: u32) -> GridDesc {
         cell_size: [1.0; 2],
         wave_speed,
         scheme,
-        pml_width: width,
+        border: Border::Absorbing { width },
         tick,
         substeps: Some(1),
         ..Default::default()
@@ -62,8 +62,9 @@ fn moving(context: &Context) -> Result<Vec<Row>, CaseError> {
                 let mut runs = Vec::new();
                 for &width in widths {
                     for matched in [true, false] {
-                        let names = ["9-point", "9-point, as on the GPU", "5-point", "5-point, as on the GPU"];
-                        let variant = names[2 * usize::from(five) + usize::from(!matched)];
+                        let stencil = if five { "5-point" } else { "9-point" };
+                        let layer = if matched { "" } else { ", as on the GPU" };
+                        let variant = format!("{kind}, {stencil}, width {width}{layer}");
                         let cells = INTERIOR as u32 + 2 * (width + 1);
                         let mut grid = WaveGrid::new(desc(scheme, [cells; 2], width))?;
                         grid.set_matched_motion(matched);
@@ -74,7 +75,7 @@ fn moving(context: &Context) -> Result<Vec<Row>, CaseError> {
                 for mut run in runs {
                     let timing = measure(context.effort, || run.grid.tick());
                     let decibels = 20.0 * (run.worst / peak).log10();
-                    let mut row = Row::new("pml_moving", run.variant)
+                    let mut row = Row::new("pml_moving", &*run.variant)
                         .param("source", kind)
                         .param("speed_over_c", speed)
                         .param("width", run.width)
