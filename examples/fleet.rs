@@ -7,10 +7,11 @@ use std::process::ExitCode;
 
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyState, BodyStates, Controls, GridDesc, Hull, Look, OpenWater, Pose, Tick, Wake, WakesDesc,
+    BodyDesc, BodyState, BodyStates, Border, Controls, Follow, GridDesc, Hull, Look, OpenWater, Pose, Rain, Tick, Wake,
+    WakesDesc,
 };
 use open_water_examples::{
-    Course, Helm, Launch, Mark, NoMore, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, run, run_up,
+    Course, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, run, run_up,
 };
 use water_view::{Camera, DryHull, Instance, MeshId, MeshView};
 
@@ -31,6 +32,28 @@ const COURSES: [([f32; 2], [f32; 2], f32, f32); 10] = [
     ([220.0, 200.0], [80.0, 60.0], 0.45, 0.70),
     ([20.0, 420.0], [120.0, 60.0], 0.80, 0.74),
 ];
+
+/// Options of this scene.
+#[derive(Debug, Clone, clap::Args)]
+struct More {
+    /// Rain, mm/h, 0 to 200
+    #[arg(long, value_name = "R", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=200))]
+    rain: u32,
+}
+
+/// Rain on a small tile that repeats over the sea around the eye.
+fn shower(rate: u32, seed: u64) -> GridDesc {
+    GridDesc {
+        follow: Follow::Point,
+        cells: [194; 2],
+        cell_size: [0.03; 2],
+        wave_speed: 0.6,
+        border: Border::Periodic,
+        damping: 1.0,
+        rain: Some(Rain { rate: rate as f32, drop_radius: 0.002, seed }),
+        ..GridDesc::default()
+    }
+}
 
 struct Fleet {
     water: OpenWater,
@@ -79,14 +102,14 @@ impl Scene for Fleet {
     const ABOUT: &'static str = "Ten boats; those that matter most to the camera have wakes, within a budget.";
     const SEA: &'static str = include_str!("assets/seas/breeze.txt");
     const VIEWPOINTS: usize = 2;
-    type More = NoMore;
-    type Assets = ();
+    type More = More;
+    type Assets = More;
 
-    fn assets(_: &NoMore) -> Result<(), SceneError> {
-        Ok(())
+    fn assets(more: &More) -> Result<More, SceneError> {
+        Ok(more.clone())
     }
 
-    fn new(options: &Options, setup: &Setup, mut water: OpenWater) -> Result<Self, SceneError> {
+    fn new(options: &Options, setup: &Setup<More>, mut water: OpenWater) -> Result<Self, SceneError> {
         let hull = setup.hull.clone();
         let desc = options.preset().body(BodyDesc::boat(&hull, 0.24 * hull.volume() * 1025.0, SPEED));
         let waterline = hull.waterline(desc.displaced_volume()).level;
@@ -102,6 +125,9 @@ impl Scene for Fleet {
         // Room for three near grids and a half.
         let room = u64::from(cells[0]) * u64::from(cells[1]) * 7 / 2;
         water.set_wakes(Some(WakesDesc { grid, cells: room, fine: 70.0, ..WakesDesc::default() }))?;
+        if setup.assets.rain > 0 {
+            water.add_grid(shower(setup.assets.rain, options.seed))?;
+        }
         let mut states = BodyStates::default();
         let (mut boats, mut courses) = (Vec::new(), Vec::new());
         for (middle, half, from, throttle) in COURSES {

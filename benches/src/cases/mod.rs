@@ -6,6 +6,7 @@ mod facade;
 mod facade_grids;
 mod grid_border;
 mod grid_current;
+mod grid_edges;
 mod grid_gap;
 mod grid_gpu;
 mod grid_gpu_error;
@@ -59,6 +60,8 @@ pub const CASES: &[Case] = &[
     grid_gap::DIFFRACTION,
     grid_border::PML,
     grid_moving::MOVING,
+    grid_edges::GRAZING,
+    grid_edges::KINDS,
     grid_border::SHIFT,
     grid_step::STEP,
     grid_tiles::TILES,

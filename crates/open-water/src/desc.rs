@@ -84,6 +84,8 @@ pub struct GridDesc {
     /// plane, fades from 30 to 60 m from the eye ([`OpenWater::look`](crate::OpenWater::look)), or from the world's origin
     /// while nobody looks, and is no body's home. Needs a home on the CPU unless it absorbs by a matched layer.
     pub border: Border,
+    /// Linear damping, 1/s, 0 to 10: without any, rain on a tile that repeats would never calm down.
+    pub damping: f32,
     /// Rain that falls into it, on the CPU only.
     pub rain: Option<Rain>,
     /// Sides through which the ambient sea comes in; needs [`Land`](crate::Land), a fixed place on its depth map and a
@@ -106,6 +108,7 @@ impl GridDesc {
             wave_speed: self.wave_speed,
             scheme: self.scheme,
             border: self.border,
+            damping: self.damping,
             tick,
             ..wave_grid::GridDesc::default()
         }
@@ -164,6 +167,7 @@ impl Preset {
             wave_speed,
             scheme,
             border: Border::Absorbing { width },
+            damping: 0.0,
             rain: None,
             feed: Edges::default(),
         }
