@@ -155,7 +155,7 @@ impl WaveGrid {
     }
 
     /// Whether every array is zero.
-    fn at_rest(&self) -> bool {
+    pub(crate) fn at_rest(&self) -> bool {
         self.captured && self.tiles.active == 0 && self.tiles.asleep()
     }
 

@@ -31,6 +31,9 @@ impl WaveGrid {
             feed.ask(incident, 0);
             feed.wake(&mut self.tiles, self.state.nx);
         }
+        if self.skipping && self.at_rest() {
+            return;
+        }
         if self.skipping {
             self.desc.border.schedule(&mut self.tiles);
         } else {
