@@ -23,12 +23,11 @@ use crate::cpu::kernels::{Coefficients, flush, note};
 use crate::cpu::tiles::{Mode, Tiles};
 use crate::state::State;
 
-/// A piece of a row within one tile.
+/// A piece of a row.
 #[derive(Debug, Clone)]
 struct Piece {
     j: usize,
     x: Range<usize>,
-    tile: usize,
 }
 
 /// What the layer keeps besides the state.
@@ -75,17 +74,14 @@ impl MovingLayer {
                         continue;
                     }
                     let span = s.tiles.span(0, tx);
-                    let tile = tz * s.tiles.count[0] + tx;
                     let add = |list: &mut Vec<Piece>, all: bool, more: usize, last: usize| {
                         let within = |from: usize, to: usize| span.start.max(from)..span.end.min(to);
                         let both = [within(1, 1 + s.strip + more), within(nx - 1 - s.strip, last)];
                         let pieces = if all || narrow { [within(1, last), 0..0] } else { both };
                         for x in pieces.into_iter().filter(|x| !x.is_empty()) {
                             match list.last_mut() {
-                                Some(piece) if more > 0 && piece.j == j && piece.x.end == x.start => {
-                                    piece.x.end = x.end
-                                }
-                                _ => list.push(Piece { j, x, tile }),
+                                Some(piece) if piece.j == j && piece.x.end == x.start => piece.x.end = x.end,
+                                _ => list.push(Piece { j, x }),
                             }
                         }
                     };
@@ -108,7 +104,7 @@ impl MovingLayer {
             if change == 0.0 {
                 continue;
             }
-            for Piece { j, x, .. } in &self.edges {
+            for Piece { j, x } in &self.edges {
                 for i in x.clone() {
                     let at = j * *nx + i;
                     let zeta = self.tables[k].edge[if k == 0 { i } else { *j }];
@@ -124,7 +120,7 @@ impl MovingLayer {
         self.shape(state, motion, s);
         let boost = Boost::new(motion.beta, s.a);
         ring(state, motion.beta, false);
-        dispatch!(s.level, _simd => self.passes(state, tops, &boost, s.coefficients));
+        dispatch!(s.level, _simd => self.passes(state, tops, &boost, s));
         ring(state, motion.beta, true);
     }
 
@@ -140,13 +136,13 @@ impl MovingLayer {
     }
 
     #[inline(always)]
-    fn passes(&mut self, state: &mut State, tops: &mut [f32], boost: &Boost, k: &Coefficients) {
-        self.gather(state, boost, k);
+    fn passes(&mut self, state: &mut State, tops: &mut [f32], boost: &Boost, s: &Surroundings) {
+        self.gather(state, boost, s.coefficients);
         for axis in 0..2 {
             self.carry(axis, state.nx, state.nz, boost);
         }
         self.advance_memory(state, boost);
-        self.advance_heights(state, tops, boost, k);
+        self.advance_heights(state, tops, boost, s);
     }
 
     /// (g - Z/2) chi + S/2 on every edge.
@@ -160,7 +156,7 @@ impl MovingLayer {
         let [gathered_x, gathered_z] = &mut self.gathered;
         let across_x = bx.gamma * (1.0 - bz.gamma * bz.gamma * bx.beta * bx.beta);
         let across_z = bz.gamma * (1.0 - bx.gamma * bx.gamma * bz.beta * bz.beta);
-        for Piece { j, x: run, .. } in &self.edges {
+        for Piece { j, x: run } in &self.edges {
             let j = *j;
             let (at, n) = (j * nx + run.start, run.len());
             let around = |at: usize, n: usize| [&z[at - nx..][..n], &z[at..][..n]];
@@ -202,7 +198,7 @@ impl MovingLayer {
         let [wx, wz] = boost.axes.map(|axis| taps(axis.v));
         let (gathered, moved) = (&self.gathered[k], &mut self.moved[k]);
         self.row.resize(nx, 0.0);
-        for Piece { j, x, .. } in &self.edges {
+        for Piece { j, x } in &self.edges {
             if *j > end_z {
                 continue;
             }
@@ -214,15 +210,15 @@ impl MovingLayer {
                 let from = &gathered[(j + o).saturating_sub(2).clamp(1, end_z) * nx..][..nx];
                 for (p, weight_x) in wx.iter().enumerate().filter(|(_, w)| **w != 0.0) {
                     let weight = weight_x * weight_z;
-                    let first = x.start + p;
-                    if first >= 3 && x.end + p <= end_x + 3 {
-                        for (sum, v) in row.iter_mut().zip(&from[first - 2..]) {
-                            *sum += weight * v;
-                        }
-                    } else {
-                        for (i, sum) in x.clone().zip(row.iter_mut()) {
-                            *sum += weight * from[(i + p).saturating_sub(2).clamp(1, end_x)];
-                        }
+                    // Where none of the cells read lies beyond an end.
+                    let first = (3 - p.min(2)).clamp(x.start, x.end);
+                    let end = (end_x + 3 - p).clamp(first, x.end);
+                    let inside = &mut row[first - x.start..end - x.start];
+                    for (sum, v) in inside.iter_mut().zip(&from[(first + p).saturating_sub(2)..]) {
+                        *sum += weight * v;
+                    }
+                    for i in (x.start..first).chain(end..x.end) {
+                        row[i - x.start] += weight * from[(i + p).saturating_sub(2).clamp(1, end_x)];
                     }
                 }
             }
@@ -235,7 +231,7 @@ impl MovingLayer {
     fn advance_memory(&mut self, state: &mut State, boost: &Boost) {
         let (nx, nz) = (state.nx, state.nz);
         let [x, y] = &self.tables;
-        for Piece { j, x: run, .. } in &self.edges {
+        for Piece { j, x: run } in &self.edges {
             let ends = [run.end * usize::from(*j < nz - 1), run.end.min(nx - 1)];
             for (k, end) in ends.into_iter().enumerate() {
                 let n = end.saturating_sub(run.start);
@@ -255,7 +251,8 @@ impl MovingLayer {
     }
 
     #[inline(always)]
-    fn advance_heights(&self, state: &mut State, tops: &mut [f32], boost: &Boost, k: &Coefficients) {
+    fn advance_heights(&self, state: &mut State, tops: &mut [f32], boost: &Boost, s: &Surroundings) {
+        let (tiles, k) = (s.tiles, s.coefficients);
         let nx = state.nx;
         let [x, y] = &self.tables;
         let [bx, bz] = boost.axes;
@@ -265,7 +262,7 @@ impl MovingLayer {
         let square = |b: &Pull| b.gamma * b.gamma / boost.gamma;
         let damp = [square(&bx), square(&bz)];
         let [damped_x, damped_z] = [damp[0] * (1.0 + bx.beta * bx.beta), damp[1] * (1.0 + bz.beta * bz.beta)];
-        for Piece { j, x: run, tile } in &self.nodes {
+        for Piece { j, x: run } in &self.nodes {
             let j = *j;
             let (z2, e2) = (y.node[j], [y.edge[j], y.edge[j + 1]]);
             let (first, n) = (run.start, run.len());
@@ -306,7 +303,14 @@ impl MovingLayer {
                 let rest = (plain + layer) + (along + (own_x + own_z));
                 old[i] = flush(c + (still + rest) / (1.0 + half + corner + k.damping));
             }
-            old.iter().for_each(|z| note(&mut tops[*tile], *z));
+            let (row, mut from) = (tiles.of(1, j) * tiles.count[0], first);
+            while from < run.end {
+                let tx = tiles.of(0, from);
+                let end = tiles.span(0, tx).end.min(run.end);
+                let top = &mut tops[row + tx];
+                old[from - first..end - first].iter().for_each(|z| note(top, *z));
+                from = end;
+            }
         }
     }
 }
