@@ -24,7 +24,7 @@ pub struct GridParams {
     pub parity: u32,
     /// Sub-steps of a tick.
     pub substeps: u32,
-    /// [`STOOD`], [`SHIFTED`] or [`CLEARED`].
+    /// [`super::STOOD`], [`super::SHIFTED`] or [`super::CLEARED`].
     pub moved: u32,
     /// Thickness W of the border layer, cells.
     pub thickness: u32,
@@ -73,7 +73,7 @@ pub struct GridTile {
     pub first_source: u32,
     /// How many.
     pub source_count: u32,
-    /// Which list it is for, 0 to 3, and [`FORCED`], [`SOLID`], [`MIXED_TILE`].
+    /// Which list it is for, 0 to 3, and [`super::FORCED`], [`super::SOLID`], [`super::MIXED_TILE`].
     pub flags: u32,
 }
 
@@ -147,7 +147,7 @@ pub struct GridDraw {
     pub foam: u32,
     /// First element in the pool.
     pub out: u32,
-    /// First `f32` of its a in the medium, or [`NO_MEDIUM`].
+    /// First `f32` of its a in the medium, or [`super::NO_MEDIUM`].
     pub medium: u32,
     /// Padding.
     pub pad: [u32; 3],
