@@ -30,8 +30,6 @@ pub(super) const GRAZING: Case = Case {
     run: grazing,
 };
 
-/// Wavelength at the pulse's peak frequency, cells.
-const WAVELENGTH: f64 = 10.0;
 /// Angles from the border's normal, degrees.
 const ANGLES: [f64; 5] = [0.0, 15.0, 30.0, 45.0, 60.0];
 /// Cells from the pulse to the border, and of the interior around it.
@@ -44,6 +42,8 @@ struct Trial {
     /// Where the pulse is, cells from the interior's middle.
     at: [f64; 2],
     steps: usize,
+    /// Wavelength at the pulse's peak frequency, cells.
+    wavelength: f64,
 }
 
 impl Trial {
@@ -68,7 +68,7 @@ impl Trial {
     /// Runs all side by side; `look` is shown the windows and the large one after each step.
     fn run(&self, grids: &mut [WaveGrid], large: &mut WaveGrid, mut look: impl FnMut(&[WaveGrid], &WaveGrid)) {
         let h = f64::from(large.desc().cell_size[0]);
-        let frequency = large.stepping().a[0].sqrt() / WAVELENGTH;
+        let frequency = large.stepping().a[0].sqrt() / self.wavelength;
         let delay = 1.5 / frequency;
         let center = Vec2::new((self.at[0] * h) as f32, (self.at[1] * h) as f32);
         for step in 0..self.steps {
@@ -97,7 +97,7 @@ fn decibels(error: f64, peak: f64) -> f64 {
 }
 
 fn kinds(context: &Context) -> Result<Vec<Row>, CaseError> {
-    let trial = Trial { interior: ROOM, at: [0.5 * ROOM[0] as f64 - AWAY, 0.0], steps: 170 };
+    let trial = Trial { interior: ROOM, at: [0.5 * ROOM[0] as f64 - AWAY, 0.0], steps: 170, wavelength: 10.0 };
     let widths: &[u32] = context.pick(&[8, 12, 16], &[4, 6, 8, 10, 12, 14, 16, 18, 20]);
     let layers = widths.iter().map(|&width| Border::Absorbing { width });
     let sponges = widths.iter().map(|&width| Border::Sponge { width });
@@ -139,13 +139,19 @@ fn kinds(context: &Context) -> Result<Vec<Row>, CaseError> {
 }
 
 fn grazing(_: &Context) -> Result<Vec<Row>, CaseError> {
+    let mut rows = Vec::new();
+    for (wavelength, bounds) in [(24.0, [None, Some(-58.0), Some(-70.0)]), (10.0, [None; 3])] {
+        rows.extend(along_the_layer(wavelength, bounds)?);
+    }
+    Ok(rows)
+}
+
+fn along_the_layer(wavelength: f64, bounds: [Option<f64>; 3]) -> Result<Vec<Row>, CaseError> {
     let interior = [256, 48];
-    let trial = Trial { interior, at: [0.0, 6.0 - 24.0], steps: 520 };
-    let widths = [(8, None), (12, Some(-58.0)), (16, Some(-70.0))];
-    let mut grids = widths
-        .iter()
-        .map(|(width, _)| trial.window(Border::Absorbing { width: *width }))
-        .collect::<Result<Vec<_>, _>>()?;
+    let trial = Trial { interior, at: [0.0, 6.0 - 24.0], steps: 520, wavelength };
+    let widths = [8, 12, 16];
+    let mut grids =
+        widths.iter().map(|&width| trial.window(Border::Absorbing { width })).collect::<Result<Vec<_>, _>>()?;
     let mut large = trial.large()?;
     let (mut worst, mut peak) = (vec![0.0f64; grids.len()], 0.0f64);
     trial.run(&mut grids, &mut large, |grids, large| {
@@ -161,10 +167,13 @@ fn grazing(_: &Context) -> Result<Vec<Row>, CaseError> {
             }
         }
     });
-    let rows = widths.into_iter().zip(worst).map(|((width, bound), worst)| {
-        let row = Row::new("pml_grazing", "9-point").param("width", width);
+    let rows = widths.into_iter().zip(worst).zip(bounds).map(|((width, worst), bound)| {
+        let row = Row::new("pml_grazing", "9-point").param("width", width).param("wavelength_cells", wavelength);
         let row = row.error(decibels(worst, peak), "dB", "a larger domain; over the peak at the border");
-        bound.map_or(row.clone(), |bound| row.bound(bound))
+        match bound {
+            Some(bound) => row.bound(bound),
+            None => row,
+        }
     });
     Ok(rows.collect())
 }

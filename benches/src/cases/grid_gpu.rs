@@ -107,7 +107,6 @@ fn step(context: &Context) -> Result<Vec<Row>, CaseError> {
     /// More sub-steps in one submission than in the other, so that what submitting costs can be taken off.
     const MORE: u32 = 8;
     let gpu = context.gpu()?;
-    let is_cpu = gpu.adapter.kind == "Cpu";
     let mut rows = Vec::new();
     for &cells in context.pick(&[512u32][..], &[512, 1024]) {
         for (variant, scheme) in [("5-point", Scheme::FivePoint), ("9-point", Scheme::NinePoint)] {
@@ -136,9 +135,7 @@ fn step(context: &Context) -> Result<Vec<Row>, CaseError> {
                 .error(ratio, "of a plain kernel's time", "WGSL, 5-point, a vec4 and 8 rows a thread, no border")
                 .time("one sub-step of all tiles, border of 4 cells included; fastest", &timing(ours))
                 .baseline("a plain f32 loop over the interior on one CPU thread; fastest", &timing(cpu));
-            // With another scheme, or on a GPU, the plain kernel is there for comparison. The bound leaves room for others'
-            // work on the machine, which the difference of two times doubles.
-            rows.push(if is_cpu && scheme == Scheme::FivePoint { row.bound(1.5) } else { row });
+            rows.push(row);
         }
     }
     Ok(rows)
