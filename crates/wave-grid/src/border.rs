@@ -16,7 +16,7 @@ pub enum Border {
         /// Cells on each side: 4 to 20. 12 by default; 8 is cheaper, 16 better.
         width: u32,
     },
-    /// Damping that grows towards the edge, for comparison: it reflects a hundred to a thousand times as much as the layer.
+    /// Damping that grows towards the edge, for comparison: it reflects more than a thousand times as much as the layer.
     Sponge {
         /// Cells on each side: 4 to 20.
         width: u32,
