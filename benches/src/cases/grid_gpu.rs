@@ -1,15 +1,13 @@
 //! Cases `grid_gpu_step` (a sub-step on the GPU against plain loops there and on the CPU), `grid_gpu_tick` (whole ticks)
 //! and `grid_gpu_active` (a tick against the share of tiles that hold waves).
 
-use std::time::Instant;
-
 use glam::Vec2;
 use wave_grid::gpu::{GpuGridId, GpuGrids};
 use wave_grid::{Border, GridDesc, Scheme, Source, WaveGrid};
 
 use super::grid_gpu_plain::{Plain, PlainKernel};
 use crate::{
-    evidence::{Axis, Case, CaseError, Context, Effort, Gpu, Plot, Row, Timing},
+    evidence::{Axis, Case, CaseError, Context, Gpu, Plot, Row, Timing, fastest},
     fixtures,
 };
 
@@ -83,22 +81,6 @@ fn run_ticks(gpu: &Gpu, grids: &mut GpuGrids, ticks: usize) -> Result<(), CaseEr
     gpu.run(|encoder| grids.encode(&gpu.device, &gpu.queue, encoder))
 }
 
-/// The least time of each, in turns: others' work on the machine meets threads and memory differently.
-fn fastest<const N: usize>(effort: Effort, mut functions: [&mut dyn FnMut(); N]) -> [f64; N] {
-    let mut least = [f64::INFINITY; N];
-    functions.iter_mut().for_each(|f| f());
-    let (start, mut repeats) = (Instant::now(), 0);
-    while repeats < 4 * effort.least || start.elapsed() < 4 * effort.budget {
-        for (f, least) in functions.iter_mut().zip(&mut least) {
-            let start = Instant::now();
-            f();
-            *least = least.min(start.elapsed().as_nanos() as f64);
-        }
-        repeats += 1;
-    }
-    least
-}
-
 fn timing(ns: f64) -> Timing {
     Timing { median_ns: ns.max(1.0), spread_ns: 0.0, repeats: 1 }
 }
@@ -115,7 +97,7 @@ fn step(context: &Context) -> Result<Vec<Row>, CaseError> {
             let stepped = f64::from(many.active_tiles(id).unwrap_or(0)) / f64::from(cells * cells / 256);
             let kernel = PlainKernel::new(gpu, cells);
             let mut plain = Plain::new(cells as usize, scheme);
-            let [ours, ours_more, theirs, theirs_more, cpu] = fastest(
+            let found = fastest(
                 context.effort,
                 [
                     &mut || drop(run_ticks(gpu, &mut one, 1)),
@@ -125,6 +107,7 @@ fn step(context: &Context) -> Result<Vec<Row>, CaseError> {
                     &mut || plain.step(),
                 ],
             );
+            let [ours, ours_more, theirs, theirs_more, cpu] = found.map(|timing| timing.median_ns);
             let [ours, theirs] = [ours_more - ours, theirs_more - theirs].map(|ns| ns / f64::from(MORE));
             let ratio = ours / theirs;
             let row = Row::new("grid_gpu_step", variant)
@@ -182,8 +165,8 @@ fn tick(context: &Context) -> Result<Vec<Row>, CaseError> {
                 .param("adapter", gpu.adapter.kind.clone())
                 .param("dispatches", dispatches)
                 .param("stepped_tiles", stepped)
-                .time("a tick of all: list, encode, submit, wait; fastest", &timing(ours))
-                .baseline("the CPU's grids, the same sources; fastest", &timing(theirs)),
+                .time("a tick of all: list, encode, submit, wait; fastest", &ours)
+                .baseline("the CPU's grids, the same sources; fastest", &theirs),
         );
     }
     Ok(rows)
@@ -198,7 +181,8 @@ fn active(context: &Context) -> Result<Vec<Row>, CaseError> {
             let (mut grids, id) = awake(gpu, slow(cells, Scheme::NinePoint, 1), share)?;
             let grids = std::cell::RefCell::new(&mut grids);
             let run = |ticks| drop(run_ticks(gpu, &mut grids.borrow_mut(), ticks));
-            let [one, more] = fastest(context.effort, [&mut || run(1), &mut || run(1 + MORE)]);
+            let [one, more] =
+                fastest(context.effort, [&mut || run(1), &mut || run(1 + MORE)]).map(|timing| timing.median_ns);
             let tiles = grids.borrow().active_tiles(id).unwrap_or(0);
             rows.push(
                 Row::new("grid_gpu_active", format!("{cells} x {cells}"))

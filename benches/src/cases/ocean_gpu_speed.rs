@@ -1,6 +1,6 @@
 //! Cases `fft_gpu_speed` (the GPU's synthesis against recorded peers) and `gpu_passes` (what each dispatch moves).
 
-use std::{sync::Arc, time::Instant};
+use std::sync::Arc;
 
 use ocean_spectrum::gpu::GpuOcean;
 use ocean_spectrum::{CascadeDesc, Ocean, OceanDesc};
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use rustfft::{Fft, FftPlanner, num_complex::Complex32};
 
 use crate::{
-    evidence::{Axis, Case, CaseError, Context, Effort, Gpu, Plot, Row, Timing, measure_together},
+    evidence::{Axis, Case, CaseError, Context, Effort, Gpu, Plot, Row, Timing, fastest, measure_together},
     fixtures,
 };
 
@@ -121,24 +121,6 @@ fn compare(
             &mut || plain.run(),
         ],
     )
-}
-
-/// The least time of each, in turns: what is compared uses other threads and memory, and suffers differently from others'
-/// work on the machine.
-fn fastest(effort: Effort, mut functions: [&mut dyn FnMut(); 3]) -> [Timing; 3] {
-    let mut least = [f64::INFINITY; 3];
-    // The first calls compile and upload.
-    functions.iter_mut().for_each(|f| f());
-    let (start, mut repeats) = (Instant::now(), 0);
-    while repeats < 4 * effort.least || start.elapsed() < 4 * effort.budget {
-        for (f, least) in functions.iter_mut().zip(&mut least) {
-            let start = Instant::now();
-            f();
-            *least = least.min(start.elapsed().as_nanos() as f64);
-        }
-        repeats += 1;
-    }
-    least.map(|median_ns| Timing { median_ns, spread_ns: 0.0, repeats })
 }
 
 fn passes(context: &Context) -> Result<Vec<Row>, CaseError> {

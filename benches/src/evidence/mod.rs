@@ -14,7 +14,7 @@ pub use machine::{Adapter, Machine};
 pub use plot::{Axis, Plot, draw};
 pub use report::{Report, Row, SCHEMA};
 pub use table::table;
-pub use timing::{Effort, Timing, measure, measure_together};
+pub use timing::{Effort, Timing, fastest, measure, measure_together};
 
 /// What a case may fail with: any error of the crates, or words.
 pub type CaseError = Box<dyn std::error::Error + Send + Sync>;
