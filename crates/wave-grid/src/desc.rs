@@ -8,8 +8,13 @@ pub const MAX_SUBSTEPS: u32 = 16;
 pub(crate) const MOST_CELLS: usize = 4096;
 /// Cells along one side of a tile.
 pub const TILE: usize = open_water_shaders::grid::TILE as usize;
+/// Gravity, m/s^2.
+pub(crate) const GRAVITY: f64 = 9.81;
 
-/// How the Laplacian is discretised. Both are explicit, in flux form, second order.
+/// Which waves a grid carries, and how they are discretised.
+///
+/// The first two are the wave equation, explicit, in flux form, second order: all waves travel at one speed, so a boat draws
+/// a Mach wedge. The other two are water waves: long ones outrun short ones, and a boat draws Kelvin's wedge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Scheme {
     /// Isotropic 9-point flux form. At `a = .7` the phase velocity errs by 0.8 % at 8 cells per wave, the same in all directions to 0.03 %.
@@ -17,14 +22,28 @@ pub enum Scheme {
     NinePoint,
     /// The 5-point form of Yang et al. 2017, Eq. 2; 1.3 % along the axes at 8 cells per wave, none along the diagonals.
     FivePoint,
+    /// The dispersion of water waves by an explicit scheme with three screened fields, from 6 to 128 cells a wave: over a bed,
+    /// between walls, in an absorbing border. Square cells. About three times the cost of the wave equation.
+    Dispersive,
+    /// The exact dispersion of water of one depth by Fourier transforms; no walls and no bed. For reference, and where
+    /// waves of all lengths matter. Its bits depend on the machine.
+    Spectral,
 }
 
 impl Scheme {
-    /// Largest `a = (c dt / h)^2` that is accepted. The theoretical bounds are 3/4 and 1/2, where a checkerboard grows linearly.
+    /// Whether all waves travel at the speed of [`GridDesc::wave_speed`].
+    pub const fn is_wave_equation(self) -> bool {
+        matches!(self, Scheme::NinePoint | Scheme::FivePoint)
+    }
+
+    /// Largest [`Stepping::a`] that is accepted. The theoretical bounds of the wave equation are 3/4 and 1/2, where a
+    /// checkerboard grows linearly.
     pub const fn bound(self) -> f64 {
         match self {
             Scheme::NinePoint => 0.74,
             Scheme::FivePoint => 0.49,
+            Scheme::Dispersive => crate::dispersive::MOST_G,
+            Scheme::Spectral => f64::INFINITY,
         }
     }
 
@@ -32,7 +51,7 @@ impl Scheme {
     pub const fn target(self) -> f64 {
         match self {
             Scheme::NinePoint => 0.70,
-            Scheme::FivePoint => 0.49,
+            Scheme::FivePoint | Scheme::Dispersive | Scheme::Spectral => self.bound(),
         }
     }
 
@@ -40,7 +59,7 @@ impl Scheme {
     pub const fn weights(self) -> (f64, f64) {
         match self {
             Scheme::NinePoint => (10.0 / 12.0, 1.0 / 12.0),
-            Scheme::FivePoint => (1.0, 0.0),
+            Scheme::FivePoint | Scheme::Dispersive | Scheme::Spectral => (1.0, 0.0),
         }
     }
 }
@@ -52,9 +71,12 @@ pub struct GridDesc {
     pub cells: [u32; 2],
     /// Cell size h along x and z, metres: 0.001 to 1000. Default 0.5.
     pub cell_size: [f32; 2],
-    /// Wave speed c in deep water, m/s: 0.001 to 1000. Default 6. All wavelengths travel at this speed; a
-    /// [`crate::Medium`] can lower it.
+    /// Wave speed c of the wave equation in deep water, m/s: 0.001 to 1000. Default 6. All wavelengths travel at this speed;
+    /// a [`crate::Medium`] can lower it. [`Scheme::Dispersive`] and [`Scheme::Spectral`] have no use for it.
     pub wave_speed: f32,
+    /// Depth of the water where no [`crate::Medium`] tells it, metres: 0.01 and more. Default infinite. The wave equation
+    /// has no use for it.
+    pub depth: f32,
     /// Discretisation. Default nine-point.
     pub scheme: Scheme,
     /// What is at the window's edge. Default a layer of 12 cells that absorbs.
@@ -73,6 +95,7 @@ impl Default for GridDesc {
             cells: [256; 2],
             cell_size: [0.5; 2],
             wave_speed: 6.0,
+            depth: f32::INFINITY,
             scheme: Scheme::default(),
             border: Border::default(),
             damping: 0.0,
@@ -89,7 +112,7 @@ pub struct Stepping {
     pub substeps: u32,
     /// Length of a sub-step, seconds.
     pub dt: f64,
-    /// `(c dt / h)^2` along x and z.
+    /// `(c dt / h)^2` along x and z; of water waves `g dt^2 / h`, the same of a deep-water wave of 2 pi cells.
     pub a: [f64; 2],
 }
 
@@ -108,6 +131,7 @@ impl Stepping {
             Scheme::NinePoint => mean.max(0.75 * x.max(z)),
             // 4 (x + z).
             Scheme::FivePoint => mean,
+            Scheme::Dispersive | Scheme::Spectral => x.max(z),
         }
     }
 }
@@ -132,14 +156,19 @@ impl GridDesc {
         if let Border::Absorbing { width } | Border::Sponge { width } = self.border {
             within("border: width", f64::from(width), 4.0, 20.0, "4 to 20 cells")?;
         }
+        within("depth", f64::from(self.depth), 0.01, f64::INFINITY, "0.01 m and more")?;
         within("damping", f64::from(self.damping), 0.0, 10.0, "0 to 10 1/s")?;
         within("tick", f64::from(self.tick), 0.0001, 1.0, "0.0001 to 1 s")?;
+        if self.scheme == Scheme::Dispersive && self.cell_size[0] != self.cell_size[1] {
+            let bound = "cell_size[0]: the dispersive scheme has square cells";
+            return Err(GridError::InvalidValue { field: "cell_size[1]", value: self.cell_size[1].into(), bound });
+        }
         let (c, h, tick) = (f64::from(self.wave_speed), self.cell_size.map(f64::from), f64::from(self.tick));
         let number = |n: u32| {
             let dt = tick / f64::from(n);
             let a = h.map(|h| {
                 let courant = c * dt / h;
-                courant * courant
+                if self.scheme.is_wave_equation() { courant * courant } else { GRAVITY * dt * dt / h }
             });
             Stepping { substeps: n, dt, a }
         };
@@ -156,6 +185,10 @@ impl GridDesc {
             }
         };
         let a = chosen.tightest(self.scheme);
+        if !stable(a, bound) && !self.scheme.is_wave_equation() {
+            let bound = "at most 0.006: smaller ticks, more sub-steps or larger cells";
+            return Err(GridError::InvalidValue { field: "tick: g (tick / substeps)^2 / cell_size", value: a, bound });
+        }
         if !stable(a, bound) {
             return Err(GridError::Unstable { dt: chosen.dt, h: h[0].min(h[1]), c, a, bound });
         }

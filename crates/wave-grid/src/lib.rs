@@ -33,6 +33,7 @@ mod cells;
 mod cpu;
 mod desc;
 mod dispersion;
+mod dispersive;
 mod drift;
 mod error;
 mod feed;

@@ -32,12 +32,15 @@ pub struct MediumCell {
     /// [`GridDesc::wave_speed`] or more. Within four cells of a wall
     /// less does. What is not finite counts as still. It fades to zero in 24 cells before the border layer.
     pub current: Vec2,
+    /// Depth of the water, metres: what [`crate::Scheme::Dispersive`] reads instead of the speed. There an open cell whose
+    /// depth is not above zero is a wall.
+    pub depth: f32,
 }
 
 impl Default for MediumCell {
     /// Open deep water.
     fn default() -> Self {
-        Self { speed: f32::INFINITY, damping: 0.0, kind: CellKind::Open, current: Vec2::ZERO }
+        Self { speed: f32::INFINITY, depth: f32::INFINITY, damping: 0.0, kind: CellKind::Open, current: Vec2::ZERO }
     }
 }
 
@@ -49,6 +52,13 @@ pub trait Medium: Send + Sync {
     /// Whether all water between two world corners is open, undamped, still and as fast as in deep water. Where it is, nothing
     /// is stored and the step costs what it does without a medium. `false` is always allowed.
     fn is_plain(&self, low: DVec2, high: DVec2, deep_speed: f32) -> bool;
+
+    /// The same for [`crate::Scheme::Dispersive`]: whether all water between two world corners is open, undamped, still and at
+    /// least `depth` metres deep. `false` is always allowed, and the default.
+    fn is_deep(&self, low: DVec2, high: DVec2, depth: f32) -> bool {
+        let _ = (low, high, depth);
+        false
+    }
 }
 
 /// A shared medium.
@@ -118,7 +128,7 @@ impl CellLaw {
     /// Of a world cell.
     pub(crate) fn cell(&self, medium: &dyn Medium, cell: [i64; 2]) -> Coefficient {
         let place = DVec2::new(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5) * self.cell_size;
-        let MediumCell { speed, damping, kind, current } = medium.at(place, self.deep_speed);
+        let MediumCell { speed, damping, kind, current, depth: _ } = medium.at(place, self.deep_speed);
         let ratio = if speed < self.deep_speed { speed / self.deep_speed } else { 1.0 };
         let a = self.a * ratio * ratio;
         // Also a speed that is NaN, negative or so low that nothing is left of `a`.

@@ -20,6 +20,7 @@ fn closed_form(scheme: Scheme, a: f64, k: [f64; 2]) -> f64 {
     let lambda = match scheme {
         Scheme::FivePoint => 4.0 - 2.0 * cx - 2.0 * cz,
         Scheme::NinePoint => (2.0 / 3.0) * (4.0 - 2.0 * cx - 2.0 * cz) + (1.0 / 6.0) * (4.0 - 4.0 * cx * cz),
+        other => panic!("no closed form of {other:?}"),
     };
     2.0 * ((a * lambda / 4.0).sqrt()).asin()
 }

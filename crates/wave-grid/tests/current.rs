@@ -23,7 +23,7 @@ struct Still;
 
 impl Medium for Still {
     fn at(&self, _: DVec2, deep_speed: f32) -> MediumCell {
-        MediumCell { speed: deep_speed, damping: 0.0, kind: CellKind::Open, current: Vec2::ZERO }
+        MediumCell { speed: deep_speed, damping: 0.0, kind: CellKind::Open, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {
@@ -84,7 +84,7 @@ impl Medium for Eddies {
             Walls::Random(share) => scramble(cell.x as i64, cell.y as i64, 3) < share,
         };
         let kind = if wall { CellKind::Wall } else { CellKind::Open };
-        MediumCell { speed: deep_speed, damping: 0.0, kind, current: current.as_vec2() }
+        MediumCell { speed: deep_speed, damping: 0.0, kind, current: current.as_vec2(), ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {

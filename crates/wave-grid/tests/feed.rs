@@ -28,6 +28,7 @@ impl Plane {
         let lambda = match grid.desc().scheme {
             Scheme::FivePoint => 4.0 - 2.0 * cx - 2.0 * cz,
             Scheme::NinePoint => (2.0 / 3.0) * (4.0 - 2.0 * cx - 2.0 * cz) + (1.0 / 6.0) * (4.0 - 4.0 * cx * cz),
+            other => panic!("no closed form of {other:?}"),
         };
         let turn = 2.0 * (grid.stepping().a[0] * lambda / 4.0).sqrt().asin();
         Self { k, turn, ramp: 12.0 * TAU }

@@ -19,7 +19,7 @@ impl Medium for Harbour {
         let slow = ((x - 10.0) / 60.0).clamp(0.0, 0.6) as f32;
         let damping = if z > 20.0 && x > 10.0 { 1.5 } else { 0.0 };
         let current = if z < -20.0 { Vec2::new(1.5, -0.5) } else { Vec2::ZERO };
-        MediumCell { speed: deep_speed * (1.0 - slow), damping, kind, current }
+        MediumCell { speed: deep_speed * (1.0 - slow), damping, kind, current, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, high: DVec2, _: f32) -> bool {
