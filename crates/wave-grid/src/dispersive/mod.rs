@@ -1,4 +1,8 @@
 //! The dispersion of water waves by local fields; see [`crate::Scheme::Dispersive`].
 
-/// Largest `g dt^2 / h` that the coefficients are fitted for.
-pub(crate) const MOST_G: f64 = 0.006;
+mod fitted;
+// Until the scheme uses all of it.
+#[allow(dead_code)]
+pub(crate) mod table;
+
+pub(crate) use table::MOST_G;
