@@ -1,6 +1,8 @@
 //! The cases of the evidence, one file a topic.
 
 mod body_float;
+mod dispersion;
+mod dispersive_choice;
 mod energy;
 mod facade;
 mod facade_grids;
@@ -57,6 +59,8 @@ pub const CASES: &[Case] = &[
     ocean_kernel::LARGEST,
     grid_phase::PHASE,
     grid_wake::WEDGE,
+    dispersion::DISPERSION,
+    dispersive_choice::CHOICE,
     grid_gap::DIFFRACTION,
     grid_border::PML,
     grid_moving::MOVING,
