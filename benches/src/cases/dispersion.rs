@@ -146,13 +146,13 @@ impl Water {
             (0..N).for_each(|i| rest[i][i] -= x * mass[i]);
             // From the fields to the potential, so that the first pivots are far from zero.
             (0..N).rev().any(|pivot| {
-                for i in 0..pivot {
-                    let factor = rest[i][pivot] / rest[pivot][pivot];
-                    for j in 0..pivot {
-                        rest[i][j] -= factor * rest[pivot][j];
-                    }
+                let (above, below) = rest.split_at_mut(pivot);
+                let own = below[0];
+                for row in above {
+                    let factor = row[pivot] / own[pivot];
+                    row.iter_mut().zip(own).for_each(|(x, y)| *x -= factor * y);
                 }
-                rest[pivot][pivot] < 0.0
+                own[pivot] < 0.0
             })
         };
         let (mut low, mut high) = (0.0, 4.0);

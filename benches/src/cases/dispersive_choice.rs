@@ -110,8 +110,8 @@ impl<const N: usize> Loops<N> {
             let flow = &mut self.flow[..];
             let p = &now[own.clone()];
             let l = laplacian::<NINE>(now, j);
-            for i in 1..SIDE - 1 {
-                flow[i] = self.c * l(i);
+            for (i, flow) in flow.iter_mut().enumerate().take(SIDE - 1).skip(1) {
+                *flow = self.c * l(i);
             }
             for (q, [x, old]) in self.fields.iter_mut().enumerate() {
                 let (s, r, m) = (self.s[q], self.r[q], self.m[q]);
