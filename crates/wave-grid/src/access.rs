@@ -38,6 +38,9 @@ impl WaveGrid {
             }
         }
         self.state.clear();
+        if let Some(fields) = &mut self.fields {
+            fields.clear();
+        }
         let (nx, nz) = (self.state.nx, self.state.nz);
         for (array, given) in [(&mut self.state.z, now), (&mut self.state.old, before)] {
             for j in 1..nz - 1 {

@@ -11,6 +11,7 @@ use glam::Vec2;
 
 use crate::cpu::current::AT_WALLS;
 use crate::cpu::tiles::{Class, Tiles};
+use crate::dispersive::Bed;
 use crate::field::Field;
 use crate::medium::{DEEP_WALL, MOST_DRIFT, NEAR_WALL};
 
@@ -35,6 +36,8 @@ pub(crate) struct Cells {
     pub(crate) weights: [f32; 2],
     /// Cells that the current along x and z moves in a sub-step; empty while there is none.
     pub(crate) drift: [Field; 2],
+    /// What the dispersive scheme takes instead of `a`.
+    pub(crate) bed: Option<Bed>,
 }
 
 /// `range` widened on both sides within `0..n`.
@@ -47,6 +50,10 @@ impl Cells {
     pub(crate) fn follow(&mut self, tiles: &mut Tiles, x: &Range<usize>, z: &Range<usize>) {
         self.find_near_walls(x, z);
         self.average_faces(x, z);
+        if let Some(bed) = &mut self.bed {
+            let (a, r) = (&self.a, &self.r);
+            bed.follow(x, z, |at| a[at] > 0.0, |at| a[at] > 0.0 && r[at] > 0.0);
+        }
         self.find_solid_tiles(tiles, x, z);
     }
 

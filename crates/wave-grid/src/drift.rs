@@ -35,6 +35,11 @@ impl Drift {
         }
     }
 
+    /// The velocity, smoothed, over the speed of waves: of those of 2 pi cells where waves disperse.
+    pub(crate) fn beta(&self) -> [f64; 2] {
+        self.beta
+    }
+
     /// What the layer needs in a sub-step.
     pub(crate) fn motion(&self, place: &Place, substep: u32, substeps: u32) -> Motion {
         let speed = (self.beta[0] * self.beta[0] + self.beta[1] * self.beta[1]).sqrt();

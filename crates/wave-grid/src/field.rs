@@ -37,8 +37,16 @@ impl Field {
         Self { all, start: middle, middle, nx, len }
     }
 
+    /// Cells along x.
+    pub(crate) fn width(&self) -> usize {
+        self.nx
+    }
+
     /// Cell i takes what cell i + shift held; what enters is zero.
     pub(crate) fn shift(&mut self, shift: [i64; 2]) {
+        if self.len == 0 {
+            return;
+        }
         let (nx, nz) = (self.nx, self.len / self.nx);
         let offset = shift[1] * nx as i64 + shift[0];
         if shift[0].unsigned_abs() as usize >= nx || offset.unsigned_abs() as usize >= self.len {

@@ -11,11 +11,12 @@ use crate::cpu::foam::FoamLaw;
 use crate::cpu::kernels::Coefficients;
 use crate::cpu::moving::MovingLayer;
 use crate::cpu::tiles::Tiles;
+use crate::dispersive::Fields;
 use crate::drift::Drift;
 use crate::feed::Feed;
 use crate::ground::Ground;
 use crate::window::{Move, Place};
-use crate::{GridDesc, GridError, Stepping, cpu, state::State};
+use crate::{GridDesc, GridError, Scheme, Stepping, cpu, state::State};
 
 /// The waves of a grid at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -30,8 +31,8 @@ pub struct GridSample {
 
 /// Waves on a window of cells that follows a target, absorbed at its border.
 ///
-/// `z_tt + sigma z_t = div(c^2 grad z)`, explicit in time, c and sigma as its [`crate::Medium`] has them. See [`WaveGrid::snapshot`]
-/// for going back.
+/// `z_tt + sigma z_t = div(c^2 grad z)`, explicit in time, or water waves: see [`Scheme`]; c, sigma and depth as its
+/// [`crate::Medium`] has them. See [`WaveGrid::snapshot`] for going back.
 #[derive(Debug, Clone)]
 pub struct WaveGrid {
     pub(crate) desc: GridDesc,
@@ -39,6 +40,8 @@ pub struct WaveGrid {
     pub(crate) place: Place,
     pub(crate) origin: DVec2,
     pub(crate) state: State,
+    /// What the dispersive scheme keeps besides.
+    pub(crate) fields: Option<Box<Fields>>,
     pub(crate) tiles: Tiles,
     pub(crate) ground: Option<Arc<Ground>>,
     pub(crate) feed: Option<Feed>,
@@ -79,7 +82,8 @@ impl WaveGrid {
         let mut grid = Self {
             stepping,
             origin: DVec2::ZERO,
-            state: State::new(nx, nz),
+            state: State::new(nx, nz, desc.scheme),
+            fields: (desc.scheme == Scheme::Dispersive).then(|| Box::new(Fields::new(&desc, &stepping))),
             tiles: Tiles::new([nx, nz], place.window.tile_offset()),
             ground: None,
             feed: None,
@@ -140,6 +144,9 @@ impl WaveGrid {
                 if !self.at_rest() {
                     self.set_moving(true);
                     cpu::shift::shift(&mut self.state, shift, self.profile.thickness);
+                    if let Some(fields) = &mut self.fields {
+                        fields.shift(shift);
+                    }
                     self.desc.border.fill_rings(&mut self.state);
                 }
             }
@@ -162,6 +169,9 @@ impl WaveGrid {
     /// Stills the water.
     pub fn clear(&mut self) {
         self.state.clear();
+        if let Some(fields) = &mut self.fields {
+            fields.clear();
+        }
         self.tiles.clear(self.place.window.tile_offset());
         self.captured = true;
         self.set_moving(false);

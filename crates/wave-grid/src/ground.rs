@@ -8,6 +8,7 @@ use glam::DVec2;
 pub(crate) use crate::cells::{Cells, REACH};
 use crate::cpu::tiles::{Class, Tiles};
 use crate::desc::TILE;
+use crate::dispersive::Bed;
 use crate::field::Field;
 use crate::hulls::Held;
 use crate::medium::{CellLaw, Coefficient, SharedMedium};
@@ -59,8 +60,9 @@ impl Ground {
                 self.cells = None;
                 return;
             }
-            let Cells { a, r, faces: [x, z], own: [own_x, own_z], drift: [drift_x, drift_z], .. } = cells;
-            for array in [a, r, x, z, own_x, own_z, drift_x, drift_z] {
+            let Cells { a, r, faces: [x, z], own: [own_x, own_z], drift: [drift_x, drift_z], bed, .. } = cells;
+            let bed = bed.iter_mut().flat_map(Bed::arrays);
+            for array in [a, r, x, z, own_x, own_z, drift_x, drift_z].into_iter().chain(bed) {
                 if !array.is_empty() {
                     array.shift(shift);
                 }
@@ -88,7 +90,7 @@ impl Ground {
         let first = [corner(0, tx), corner(1, tz)];
         let place = |cells: i64| DVec2::new((first[0] + cells) as f64, (first[1] + cells) as f64) * self.law.cell_size;
         let (low, high) = (place(-1), place(TILE as i64 + 1));
-        let plain = self.medium.0.is_plain(low, high, self.law.deep_speed);
+        let plain = self.law.is_plain(&*self.medium.0, low, high);
         let tile = &mut tiles.tiles[tz * tiles.count[0] + tx];
         tile.class = if plain { Class::Plain } else { Class::Mixed };
         (tile.walls, tile.carried, tile.shut) = (false, false, false);
@@ -100,7 +102,8 @@ impl Ground {
             return false;
         }
         let [nx, nz] = tiles.cells;
-        let Coefficient { a, r, .. } = self.law.plain();
+        let Coefficient { a, r, depth, .. } = self.law.plain();
+        let bed = self.law.table.as_ref().map(|table| Bed::new(table.clone(), nx, nz, depth));
         let all = |v: f32| Field::new(nx, nz, v, 0);
         let (weights, aspect) = (self.law.weights, self.law.aspect);
         let faces = [a, a * aspect];
@@ -115,6 +118,7 @@ impl Ground {
             own,
             weights,
             drift: Default::default(),
+            bed,
         });
         true
     }
@@ -122,7 +126,7 @@ impl Ground {
     /// Reads a rectangle of cells, and what follows from it.
     pub(crate) fn read(&mut self, tiles: &mut Tiles, x: Range<usize>, z: Range<usize>) {
         let Some(cells) = &mut self.cells else { return };
-        let Coefficient { a, r, .. } = self.law.plain();
+        let Coefficient { a, r, depth, .. } = self.law.plain();
         for tz in tiles.of(1, z.start)..=tiles.of(1, z.end - 1) {
             for tx in tiles.of(0, x.start)..=tiles.of(0, x.end - 1) {
                 let plain = tiles.row(tz)[tx].class == Class::Plain;
@@ -134,6 +138,9 @@ impl Ground {
                         cells.a[row.clone()].fill(a);
                         cells.r[row.clone()].fill(r);
                         cells.drift.iter_mut().filter(|u| !u.is_empty()).for_each(|u| u[row.clone()].fill(0.0));
+                        if let Some(bed) = &mut cells.bed {
+                            bed.depth[row.clone()].fill(depth);
+                        }
                         continue;
                     }
                     for (i, at) in across.clone().zip(row) {
@@ -141,6 +148,9 @@ impl Ground {
                         let cell = self.law.cell(&*self.medium.0, world);
                         (cells.a[at], cells.r[at]) = (cell.a, cell.r);
                         cells.set_drift(at, cell.drift);
+                        if let Some(bed) = &mut cells.bed {
+                            bed.depth[at] = cell.depth;
+                        }
                     }
                 }
             }

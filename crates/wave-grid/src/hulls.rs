@@ -69,7 +69,7 @@ impl WaveGrid {
         }
         let corner = self.place.window.corner;
         if self.ground.is_none() {
-            let law = CellLaw::new(&self.desc, &self.stepping);
+            let law = self.cell_law();
             let ground = Ground::new(SharedMedium(Arc::new(OpenWater)), law, corner, &mut self.tiles);
             self.ground = Some(Arc::new(ground));
         }

@@ -1,11 +1,20 @@
 //! What tests and replays ask of a grid: energy, volume, finiteness, a hash.
 
 use crate::WaveGrid;
+use crate::desc::GRAVITY;
+use crate::dispersive::{FIELDS, Fields};
 
 impl WaveGrid {
     /// The invariant of the undamped scheme away from its border, m^4/s^2:
     /// hx hz / 2 sum [ ((z - z_old)/dt)^2 - z_old div(a grad z)/dt^2 ] over open water. In f64, row by row.
+    ///
+    /// Where waves disperse, its own: with q the potential and the screened fields, q_old a sub-step ago,
+    /// hx hz g / G times the sum over the cells of G z^2 / 2 + sum_i (X - X_old)^2 / (2 m) + V(q, q_old), V the form of which
+    /// the scheme's forces are the slope.
     pub fn energy(&self) -> f64 {
+        if let Some(fields) = &self.fields {
+            return self.dispersive_energy(fields);
+        }
         let state = &self.state;
         let nx = state.nx;
         let (straight, beside) = self.desc.scheme.weights();
@@ -36,6 +45,40 @@ impl WaveGrid {
         0.5 * hx * hz * sum / (self.stepping.dt * self.stepping.dt)
     }
 
+    fn dispersive_energy(&self, fields: &Fields) -> f64 {
+        let nx = self.state.nx;
+        let g = self.stepping.a[0];
+        let bed = self.cells().and_then(|cells| cells.bed.as_ref());
+        let (law, at) = (&fields.law, |field: &[f32], i: usize| f64::from(field[i]));
+        let p_old = |i: usize| at(&fields.potential, i) + g * at(&self.state.z, i);
+        let mut sum = 0.0;
+        for j in 1..self.state.nz {
+            for i in j * nx + 1..(j + 1) * nx {
+                let (z, p) = (at(&self.state.z, i), at(&fields.potential, i));
+                sum += 0.5 * g * z * z;
+                for (axis, step) in [(0, 1), (1, nx)] {
+                    let weight = |k: usize, plain: f32| f64::from(bed.map_or(plain, |bed| bed.faces[axis][k][i]));
+                    let slopes = (p - at(&fields.potential, i - step)) * (p_old(i) - p_old(i - step));
+                    sum += 0.5 * weight(0, law.c) * slopes;
+                    for k in 0..FIELDS {
+                        let slope = |field: &[f32]| at(field, i) - at(field, i - step);
+                        sum += 0.5 * weight(k + 1, law.s[k]) * slope(&fields.screened[k]) * slope(&fields.older[k]);
+                    }
+                }
+                for k in 0..FIELDS {
+                    let (x, old) = (at(&fields.screened[k], i), at(&fields.older[k], i));
+                    let m = f64::from(bed.map_or(law.m[k], |bed| bed.m[k][i]));
+                    if m > 0.0 {
+                        sum += 0.5 * (x - old) * (x - old) / m;
+                    }
+                    sum += 0.5 * f64::from(law.r[k]) * (p - x) * (p_old(i) - old);
+                }
+            }
+        }
+        let [hx, hz] = self.desc.cell_size.map(f64::from);
+        hx * hz * GRAVITY / g * sum
+    }
+
     /// Water above the ambient level, cubic metres, walls left out.
     pub fn volume(&self) -> f64 {
         let [hx, hz] = self.desc.cell_size.map(f64::from);
@@ -49,7 +92,9 @@ impl WaveGrid {
     pub fn is_finite(&self) -> bool {
         let s = &self.state;
         let arrays = [&s.z, &s.old, &s.previous, &s.foam, &s.phi[0], &s.phi[1]];
-        arrays.iter().all(|array| array.iter().all(|v| v.is_finite()))
+        let fields = self.fields.iter().flat_map(|fields| fields.kept());
+        let memory = self.fields.iter().flat_map(|fields| &fields.layer).flat_map(|layer| layer.memory.values());
+        arrays.into_iter().chain(fields).flat_map(|array| array.iter()).chain(memory).all(|v| v.is_finite())
     }
 
     /// 64-bit FNV-1a over the window's place and the bits of the state: equal on every machine and thread count.
@@ -60,11 +105,12 @@ impl WaveGrid {
         for corner in self.place.window.corner {
             eat(corner as u64);
         }
-        for array in [&s.z, &s.old, &s.foam, &s.phi[0], &s.phi[1]] {
-            for v in array.iter() {
-                // -0 and 0 are the same water.
-                eat(u64::from((v + 0.0).to_bits()));
-            }
+        let fields = self.fields.iter().flat_map(|fields| fields.kept());
+        let memory = self.fields.iter().flat_map(|fields| &fields.layer).flat_map(|layer| layer.memory.values());
+        let arrays = [&s.z, &s.old, &s.foam, &s.phi[0], &s.phi[1]];
+        for v in arrays.into_iter().chain(fields).flat_map(|array| array.iter()).chain(memory) {
+            // -0 and 0 are the same water.
+            eat(u64::from((v + 0.0).to_bits()));
         }
         hash
     }

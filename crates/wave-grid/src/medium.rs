@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
 
+use crate::dispersive::{DEEP, Table};
 use crate::{GridDesc, Stepping};
 
 /// What a cell is.
@@ -72,7 +73,7 @@ impl std::fmt::Debug for SharedMedium {
 }
 
 /// Turns what a medium says into coefficients of a grid.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CellLaw {
     pub(crate) deep_speed: f32,
     pub(crate) cell_size: DVec2,
@@ -86,6 +87,10 @@ pub(crate) struct CellLaw {
     pub(crate) weights: [f32; 2],
     /// dt / h along x and z.
     drift: Vec2,
+    /// Of the dispersive scheme.
+    pub(crate) table: Option<Arc<Table>>,
+    /// Depth of the water that is plain, cells.
+    depth: f32,
 }
 
 /// Coefficients of a cell: a = (c dt / h)^2 along x, at most 0 for walls; r = 1 / (1 + sigma dt / 2), 0 for what is not water.
@@ -95,6 +100,8 @@ pub(crate) struct Coefficient {
     pub(crate) r: f32,
     /// Cells that the current moves in a sub-step.
     pub(crate) drift: Vec2,
+    /// Depth in cells.
+    pub(crate) depth: f32,
 }
 
 /// Most cells that a current moves in a sub-step.
@@ -106,9 +113,11 @@ pub(crate) const DEEP_WALL: f32 = -1.0;
 pub(crate) const NEAR_WALL: f32 = 0.0;
 
 impl CellLaw {
-    pub(crate) fn new(desc: &GridDesc, stepping: &Stepping) -> Self {
+    pub(crate) fn new(desc: &GridDesc, stepping: &Stepping, table: Option<Arc<Table>>) -> Self {
         let (straight, beside) = desc.scheme.weights();
         Self {
+            table,
+            depth: desc.depth / desc.cell_size[0],
             weights: [straight as f32, beside as f32],
             deep_speed: desc.wave_speed,
             cell_size: Vec2::from(desc.cell_size).as_dvec2(),
@@ -122,24 +131,42 @@ impl CellLaw {
 
     /// Of open deep water.
     pub(crate) fn plain(&self) -> Coefficient {
-        Coefficient { a: self.a, r: 1.0 / (1.0 + self.half_dt * self.damping), drift: Vec2::ZERO }
+        let a = if self.table.is_some() { self.a * self.depth.min(DEEP) } else { self.a };
+        Coefficient { a, r: 1.0 / (1.0 + self.half_dt * self.damping), drift: Vec2::ZERO, depth: self.depth }
+    }
+
+    /// Whether the water between two world corners is as [`Self::plain`] says.
+    pub(crate) fn is_plain(&self, medium: &dyn Medium, low: DVec2, high: DVec2) -> bool {
+        match self.table {
+            Some(_) => self.depth >= DEEP && medium.is_deep(low, high, DEEP * self.cell_size.x as f32),
+            None => medium.is_plain(low, high, self.deep_speed),
+        }
     }
 
     /// Of a world cell.
     pub(crate) fn cell(&self, medium: &dyn Medium, cell: [i64; 2]) -> Coefficient {
         let place = DVec2::new(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5) * self.cell_size;
-        let MediumCell { speed, damping, kind, current, depth: _ } = medium.at(place, self.deep_speed);
-        let ratio = if speed < self.deep_speed { speed / self.deep_speed } else { 1.0 };
-        let a = self.a * ratio * ratio;
-        // Also a speed that is NaN, negative or so low that nothing is left of `a`.
-        let wet = speed > 0.0 && a > 1e-12;
+        let MediumCell { speed, damping, kind, current, depth } = medium.at(place, self.deep_speed);
+        let depth = depth / self.cell_size.x as f32;
+        // (c dt / h)^2 of the longest waves.
+        let a = if self.table.is_some() {
+            self.a * depth.min(DEEP)
+        } else {
+            let ratio = if speed < self.deep_speed { speed / self.deep_speed } else { 1.0 };
+            self.a * ratio * ratio
+        };
+        // Also a speed or a depth that is NaN, negative or so low that nothing is left of `a`.
+        let wet = a > 1e-12 && (self.table.is_some() || speed > 0.0);
         let damping = if damping > 0.0 { damping.min(1e6) } else { 0.0 };
         let current = if current.is_finite() { current } else { Vec2::ZERO };
         let drift = (current * self.drift).clamp(Vec2::splat(-MOST_DRIFT), Vec2::splat(MOST_DRIFT));
         match kind {
-            CellKind::Open if wet => Coefficient { a, r: 1.0 / (1.0 + self.half_dt * (self.damping + damping)), drift },
-            CellKind::Fixed => Coefficient { a: if wet { a } else { self.a }, r: 0.0, drift: Vec2::ZERO },
-            _ => Coefficient { a: DEEP_WALL, r: 0.0, drift: Vec2::ZERO },
+            CellKind::Open if wet => {
+                Coefficient { a, r: 1.0 / (1.0 + self.half_dt * (self.damping + damping)), drift, depth }
+            }
+            CellKind::Fixed if wet => Coefficient { a, r: 0.0, drift: Vec2::ZERO, depth },
+            CellKind::Fixed => Coefficient { r: 0.0, ..self.plain() },
+            _ => Coefficient { a: DEEP_WALL, r: 0.0, drift: Vec2::ZERO, depth: 0.0 },
         }
     }
 }

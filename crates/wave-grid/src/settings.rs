@@ -17,7 +17,7 @@ impl WaveGrid {
     /// what becomes wall or held water are let go, what a wall leaves behind is calm. A grid that repeats takes none.
     pub fn set_medium(&mut self, medium: Option<Arc<dyn Medium>>) {
         let medium = medium.filter(|_| self.desc.border != Border::Periodic);
-        let law = CellLaw::new(&self.desc, &self.stepping);
+        let law = self.cell_law();
         let corner = self.place.window.corner;
         // The ghosts of the old walls go, then whatever stands in the new ones.
         self.dry_walls();
@@ -34,11 +34,16 @@ impl WaveGrid {
         self.renew_feed();
     }
 
+    /// What turns a medium into coefficients.
+    pub(crate) fn cell_law(&self) -> CellLaw {
+        CellLaw::new(&self.desc, &self.stepping, self.fields.as_ref().map(|fields| fields.table.clone()))
+    }
+
     /// Reads the medium anew.
     pub(crate) fn read_ground(&mut self) {
         if let Some(ground) = self.ground.take() {
             let corner = self.place.window.corner;
-            let ground = Ground::new(ground.medium.clone(), ground.law, corner, &mut self.tiles);
+            let ground = Ground::new(ground.medium.clone(), ground.law.clone(), corner, &mut self.tiles);
             self.ground = Some(Arc::new(ground));
         }
     }
@@ -52,13 +57,18 @@ impl WaveGrid {
     pub(crate) fn dry_walls(&mut self) {
         if let Some(cells) = self.ground.as_ref().and_then(|ground| ground.cells.as_ref()) {
             self.state.dry_walls(cells);
+            if let Some(fields) = &mut self.fields {
+                fields.dry_walls(cells);
+            }
         }
     }
 
     /// Sets which sides of the window waves are fed through by [`Self::tick_fed`]; none by default. On those sides the
-    /// drawn height fades to zero at the contour instead of the window's edge. A border that absorbs nothing takes none.
+    /// drawn height fades to zero at the contour instead of the window's edge. A border that absorbs nothing takes none, nor does
+    /// another scheme than the wave equation.
     pub fn set_feed(&mut self, edges: Edges) {
-        let edges = if self.desc.border.has_ring() { Edges::default() } else { edges };
+        let takes = !self.desc.border.has_ring() && self.desc.scheme.is_wave_equation();
+        let edges = if takes { edges } else { Edges::default() };
         self.place.fed = edges;
         self.feed = edges.any().then(|| self.new_feed(edges));
         self.update_fade();

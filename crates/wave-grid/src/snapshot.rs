@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::cpu::tiles::{Mode, Tile, Tiles};
+use crate::dispersive::Layer;
 use crate::drift::Drift;
 use crate::ground::Ground;
 use crate::window::Place;
@@ -24,7 +25,10 @@ pub struct GridSnapshot {
     drift: Drift,
     captured: bool,
     dropped: u64,
-    /// Of each tile that is held: z, z_old, foam; then what it kept to be drawn; then phi along x and z.
+    /// The dispersive scheme's border layer.
+    layer: Option<Layer>,
+    /// Of each tile that is held: z, z_old, foam; then what it kept to be drawn; then phi along x and z; then what the
+    /// dispersive scheme keeps.
     cells: Vec<f32>,
 }
 
@@ -41,7 +45,8 @@ impl WaveGrid {
             let state = &grid.state;
             let [phi_x, phi_z] = &state.phi;
             let arrays = [&state.z, &state.old, &state.foam, &state.previous, phi_x, phi_z];
-            for (array, wanted) in arrays.into_iter().zip(grid.parts(tile)) {
+            let kept = grid.fields.iter().flat_map(|fields| fields.kept()).map(|field| (field, true));
+            for (array, wanted) in arrays.into_iter().zip(grid.parts(tile)).chain(kept) {
                 if wanted {
                     rows.clone().for_each(|row| cells.extend_from_slice(&array[row]));
                 }
@@ -58,6 +63,7 @@ impl WaveGrid {
             drift: self.drift,
             captured: self.captured,
             dropped: self.dropped,
+            layer: self.fields.as_ref().and_then(|fields| fields.layer.clone()),
             cells,
         }
     }
@@ -76,7 +82,11 @@ impl WaveGrid {
         for tz in 0..self.tiles.count[1] {
             for tx in 0..self.tiles.count[0] {
                 if held(&self.tiles.row(tz)[tx]) {
-                    self.state.clear_cells(self.tiles.span(0, tx), self.tiles.span(1, tz));
+                    let (x, z) = (self.tiles.span(0, tx), self.tiles.span(1, tz));
+                    self.state.clear_cells(x.clone(), z.clone());
+                    if let Some(fields) = &mut self.fields {
+                        fields.clear_cells(x, z);
+                    }
                 }
             }
         }
@@ -88,6 +98,9 @@ impl WaveGrid {
         self.set_moving(*moving);
         self.drift = *drift;
         self.update_fade();
+        if let Some(fields) = &mut self.fields {
+            fields.layer.clone_from(&snapshot.layer);
+        }
         self.feed = feed.map(|edges| self.new_feed(edges));
         let mut left = &snapshot.cells[..];
         let mut places = Vec::new();
@@ -96,7 +109,8 @@ impl WaveGrid {
             let state = &mut self.state;
             let [phi_x, phi_z] = &mut state.phi;
             let arrays = [&mut state.z, &mut state.old, &mut state.foam, &mut state.previous, phi_x, phi_z];
-            for (array, wanted) in arrays.into_iter().zip(parts) {
+            let kept = self.fields.iter_mut().flat_map(|fields| fields.kept_mut()).map(|field| (field, true));
+            for (array, wanted) in arrays.into_iter().zip(parts).chain(kept) {
                 for row in rows.iter().filter(|_| wanted) {
                     let (cells, rest) = left.split_at(row.len());
                     array[row.clone()].copy_from_slice(cells);
@@ -126,6 +140,7 @@ impl WaveGrid {
             let span = self.tiles.span(axis, tile);
             span.start < rim || span.end + rim > self.tiles.cells[axis]
         });
+        let layered = layered && self.desc.scheme.is_wave_equation();
         [true, true, true, self.tiles.row(tz)[tx].kept, layered, layered]
     }
 }

@@ -1,5 +1,6 @@
 //! The arrays of a grid, row-major, x fastest.
 
+use crate::Scheme;
 use crate::field::Field;
 use crate::ground::Cells;
 
@@ -16,15 +17,17 @@ pub(crate) struct State {
     pub(crate) previous: Field,
     /// Foam, 0 to 1.
     pub(crate) foam: Field,
-    /// phi on the edges before each cell along x and z, half a sub-step ago; zero outside the layer.
+    /// phi on the edges before each cell along x and z, half a sub-step ago; zero outside the layer. Empty, as the next,
+    /// where the layer is not the wave equation's.
     pub(crate) phi: [Field; 2],
     /// Where the next phi is written.
     pub(crate) phi_next: [Field; 2],
 }
 
 impl State {
-    pub(crate) fn new(nx: usize, nz: usize) -> Self {
+    pub(crate) fn new(nx: usize, nz: usize, scheme: Scheme) -> Self {
         let zero = |stagger| Field::new(nx, nz, 0.0, stagger);
+        let phi = |stagger| if scheme.is_wave_equation() { zero(stagger) } else { Field::default() };
         Self {
             nx,
             nz,
@@ -32,8 +35,8 @@ impl State {
             old: zero(1),
             previous: zero(2),
             foam: zero(3),
-            phi: [zero(2), zero(3)],
-            phi_next: [zero(2), zero(3)],
+            phi: [phi(2), phi(3)],
+            phi_next: [phi(2), phi(3)],
         }
     }
 
@@ -54,7 +57,8 @@ impl State {
         let nx = self.nx;
         let Self { nx: _, nz: _, z: height, old, previous: _, foam, phi: [a, b], phi_next: [c, d] } = self;
         for j in z {
-            for array in [&mut *height, &mut *old, &mut *foam, &mut *a, &mut *b, &mut *c, &mut *d] {
+            let arrays = [&mut *height, &mut *old, &mut *foam, &mut *a, &mut *b, &mut *c, &mut *d];
+            for array in arrays.into_iter().filter(|array| !array.is_empty()) {
                 array[j * nx + x.start..j * nx + x.end].fill(0.0);
             }
         }

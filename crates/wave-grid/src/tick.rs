@@ -44,6 +44,9 @@ impl WaveGrid {
                 if self.tiles.row(tz)[tx].mode == Mode::Ending {
                     self.keep(tx, tz);
                     self.state.clear_cells(self.tiles.span(0, tx), self.tiles.span(1, tz));
+                    if let Some(fields) = &mut self.fields {
+                        fields.clear_cells(self.tiles.span(0, tx), self.tiles.span(1, tz));
+                    }
                     self.captured = false;
                 }
             }
@@ -56,7 +59,11 @@ impl WaveGrid {
             self.carrier = Some(Carrier::new([self.state.nx, self.state.nz], self.profile.thickness));
         }
         self.tops.resize(self.tiles.tiles.len(), 0.0);
+        if let Some(layer) = self.fields.as_mut().and_then(|fields| fields.layer.as_mut()) {
+            layer.move_with(self.drift.beta());
+        }
         let moves = self.moving
+            && self.desc.scheme.is_wave_equation()
             && matches!(self.desc.border, Border::Absorbing { .. })
             && self.matched
             && fed.is_none()
@@ -68,6 +75,21 @@ impl WaveGrid {
                 (0, _) => Keep::All,
                 _ => Keep::Nothing,
             };
+            if let Some(fields) = &mut self.fields {
+                let setting = cpu::dispersive::step::Setting {
+                    level: self.level,
+                    tiles: &self.tiles,
+                    border: self.desc.border,
+                    cells,
+                    keep,
+                };
+                cpu::dispersive::step::step(&mut self.state, fields, &mut self.tops, &setting);
+                self.tiles.note(&self.tops);
+                if substep == 0 {
+                    self.tiles.note_kept(keep == Keep::All);
+                }
+                continue;
+            }
             let setting = Setting {
                 level: self.level,
                 tiles: &self.tiles,

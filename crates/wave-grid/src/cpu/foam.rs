@@ -17,6 +17,10 @@ use crate::{GridDesc, Stepping};
 pub(crate) const ONSET: f32 = 5.0;
 /// Acceleration above the onset, in g, at which foam grows at the full rate.
 pub(crate) const RANGE: f32 = 10.0;
+/// The same for water waves, whose crests break at 0.4 to 0.5 g: where foam begins, and the acceleration above that.
+const CREST: [f32; 2] = [0.35, 0.5];
+/// Wavenumber times cell size of the crests that break: the acceleration is taken from their Laplacian.
+const CREST_NUMBER: f32 = 0.6;
 /// Foam per second at the full rate.
 pub(crate) const RATE: f32 = 4.0;
 /// Time constant of the decay, seconds.
@@ -54,13 +58,20 @@ impl FoamLaw {
     pub(crate) fn new(desc: &GridDesc, stepping: &Stepping) -> Self {
         let tick = desc.tick;
         let speed = desc.wave_speed / desc.cell_size[0];
+        let (scale, onset, depth) = if desc.scheme.is_wave_equation() {
+            let depth = SHALLOW * desc.wave_speed * desc.wave_speed / GRAVITY;
+            (speed * speed / (GRAVITY * RANGE), ONSET / RANGE, depth)
+        } else {
+            // g k z of crests, k that of the shortest waves that a boat makes.
+            (1.0 / (CREST_NUMBER * desc.cell_size[0] * CREST[1]), CREST[0] / CREST[1], SHALLOW * desc.cell_size[0])
+        };
         Self {
-            depth: SHALLOW * desc.wave_speed * desc.wave_speed / GRAVITY,
+            depth,
             deep: stepping.a[0] as f32,
             aspect: stepping.aspect(),
             splash: 1.0 / (SPLASH * stepping.dt as f32),
-            scale: speed * speed / (GRAVITY * RANGE),
-            onset: ONSET / RANGE,
+            scale,
+            onset,
             growth: RATE * tick,
             keep: 1.0 / (1.0 + tick / DECAY),
         }

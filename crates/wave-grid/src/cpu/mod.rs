@@ -3,6 +3,7 @@
 pub(crate) mod band;
 pub(crate) mod boost;
 pub(crate) mod current;
+pub(crate) mod dispersive;
 pub(crate) mod draw;
 pub(crate) mod foam;
 pub(crate) mod ghosts;

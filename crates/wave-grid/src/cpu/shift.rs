@@ -21,6 +21,9 @@ pub(crate) fn shift(state: &mut State, shift: [i64; 2], thickness: usize) {
             row[nx - 1] = 0.0;
         }
     }
+    if state.phi[0].is_empty() {
+        return;
+    }
     let w = thickness;
     let State { phi: [x, z], phi_next: [next_x, next_z], .. } = state;
     // No step writes phi where no edge of an open cell is: left there, it would come back with the opposite shift.

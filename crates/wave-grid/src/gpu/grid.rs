@@ -1,15 +1,18 @@
 //! What the CPU knows of a grid on the GPU.
 
+use std::sync::Arc;
+
 use open_water_shaders::grid as shader;
 
 use super::land::Land;
 use crate::border::Profile;
 use crate::cpu::foam::FoamLaw;
+use crate::dispersive::Table;
 use crate::ground::Cells;
 use crate::medium::{CellLaw, SharedMedium};
 use crate::source::footprint::Footprint;
 use crate::window::Place;
-use crate::{GridDesc, Stepping};
+use crate::{GridDesc, Scheme, Stepping};
 
 /// What the CPU knows of a grid on the GPU.
 #[derive(Debug)]
@@ -98,7 +101,8 @@ impl Grid {
 
     /// Sets what it lies in.
     pub(super) fn set_medium(&mut self, medium: Option<SharedMedium>) {
-        let law = CellLaw::new(&self.desc, &self.stepping);
+        let table = (self.desc.scheme == Scheme::Dispersive).then(|| Arc::new(Table::new(self.stepping.a[0])));
+        let law = CellLaw::new(&self.desc, &self.stepping, table);
         let window = &self.place.window;
         self.land = medium.map(|medium| Land::new(medium, law, window));
     }

@@ -78,6 +78,10 @@ impl WaveGrid {
     /// The impulse of a tick's pressure: z_old falls by substeps times a lap(p / (rho g)), in flux form, and by what
     /// damping takes of it in the sub-step that follows.
     fn press(&mut self, footprint: &Footprint, weights: &[f32]) {
+        if self.fields.is_some() {
+            self.press_potential(footprint, weights);
+            return;
+        }
         let nx = self.state.nx;
         let [[x0, x1], [z0, z1]] = footprint.range;
         let width = x1 - x0;
@@ -108,6 +112,24 @@ impl WaveGrid {
             }
         }
         self.tiles.touch([[x0 - 1, x1 + 1], [z0 - 1, z1 + 1]], most, 0.0);
+    }
+
+    /// The same where waves disperse: the potential falls by G p / (rho g) in every sub-step of the tick.
+    fn press_potential(&mut self, footprint: &Footprint, weights: &[f32]) {
+        let nx = self.state.nx;
+        let [columns, rows] = footprint.range.map(|[low, high]| low..high);
+        let kick = (f64::from(self.stepping.substeps) * self.stepping.a[0] * f64::from(footprint.head)) as f32;
+        let cells = self.ground.as_ref().and_then(|ground| ground.cells.as_ref());
+        let Some(fields) = &mut self.fields else { return };
+        for (j, row) in rows.zip(weights.chunks_exact(columns.len())) {
+            for (i, weight) in columns.clone().zip(row) {
+                let at = j * nx + i;
+                if cells.is_none_or(|cells| cells.is_open(at)) {
+                    fields.potential[at] = (fields.potential[at] - weight * kick).clamp(-HEIGHT_LIMIT, HEIGHT_LIMIT);
+                }
+            }
+        }
+        self.tiles.touch(footprint.range, kick.abs(), 0.0);
     }
 
     /// a lap of a field around a cell of plain water; `field(1, 1)` is the cell's own value.
