@@ -13,12 +13,12 @@ use crate::state::State;
 pub enum Border {
     /// A perfectly matched layer: what leaves is gone.
     Absorbing {
-        /// Cells on each side: 4 to 20. 12 by default; 8 is cheaper, 16 better.
+        /// Cells on each side: 4 to 20, up to 48 where waves disperse. 12 by default; 8 is cheaper, 16 better.
         width: u32,
     },
     /// Damping that grows towards the edge, for comparison: it reflects more than a thousand times as much as the layer.
     Sponge {
-        /// Cells on each side: 4 to 20.
+        /// Cells on each side: 4 to 20, up to 48 where waves disperse.
         width: u32,
     },
     /// Walls inside the outermost ring of cells: a basin. Nothing fades at its edge, and it takes no feed.

@@ -154,7 +154,21 @@ impl GridDesc {
         }
         within("wave_speed", f64::from(self.wave_speed), 0.001, 1000.0, "0.001 to 1000 m/s")?;
         if let Border::Absorbing { width } | Border::Sponge { width } = self.border {
-            within("border: width", f64::from(width), 4.0, 20.0, "4 to 20 cells")?;
+            if self.scheme.is_wave_equation() {
+                within("border: width", f64::from(width), 4.0, 20.0, "4 to 20 cells")?;
+            } else {
+                within("border: width", f64::from(width), 4.0, 48.0, "4 to 48 cells")?;
+                for (field, n) in [("cells[0]", self.cells[0]), ("cells[1]", self.cells[1])] {
+                    let least = f64::from(2 * width.next_multiple_of(8) + 16);
+                    within(
+                        field,
+                        f64::from(n),
+                        least,
+                        MOST_CELLS as f64,
+                        "16 cells and twice the border, in steps of 8",
+                    )?;
+                }
+            }
         }
         within("depth", f64::from(self.depth), 0.01, f64::INFINITY, "0.01 m and more")?;
         within("damping", f64::from(self.damping), 0.0, 10.0, "0 to 10 1/s")?;

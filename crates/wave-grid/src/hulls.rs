@@ -13,7 +13,7 @@ use crate::cpu::tiles::{Class, Tiles};
 use crate::desc::TILE;
 use crate::feed::contour;
 use crate::ground::{Ground, REACH};
-use crate::medium::{CellLaw, DEEP_WALL, Medium, MediumCell, SharedMedium};
+use crate::medium::{DEEP_WALL, Medium, MediumCell, SharedMedium};
 use crate::state::State;
 use crate::{GridDesc, WaveGrid, Window};
 

@@ -122,11 +122,6 @@ impl Memory {
         }
     }
 
-    /// How many rows below `row` have entries along z.
-    pub(crate) fn rows_below(&self, row: usize) -> usize {
-        row.min(self.span) + row.saturating_sub(self.cells[1] - self.reach).min(self.span)
-    }
-
     fn arrays(&mut self) -> impl Iterator<Item = (usize, &mut Vec<f32>)> {
         let Self { psi, zeta, .. } = self;
         psi.iter_mut()

@@ -23,12 +23,12 @@ pub(crate) struct Band<'a> {
 pub(crate) struct Frame<'a> {
     pub(crate) span: usize,
     pub(crate) psi: [[&'a [f32]; MEMORIES]; 2],
-    /// As [`Memory::rows_below`], by row.
     pub(crate) cells: [usize; 2],
     pub(crate) reach: usize,
 }
 
 impl Frame<'_> {
+    /// How many rows below `row` have entries along z.
     pub(crate) fn rows_below(&self, row: usize) -> usize {
         row.min(self.span) + row.saturating_sub(self.cells[1] - self.reach)
     }
