@@ -71,12 +71,12 @@ impl Bed {
         for j in widened(z, 2, nz) {
             for i in widened(x, 2, nx) {
                 let at = j * nx + i;
-                for k in 0..FIELDS {
+                for ((k, m), r) in self.m.iter_mut().enumerate().zip(r) {
                     let [along, across] = [&self.faces[0][k + 1], &self.faces[1][k + 1]];
                     let after = |faces: &Field, inside: bool, at: usize| if inside { faces[at] } else { 0.0 };
                     let s = (along[at] + after(along, i + 1 < nx, at + 1))
                         + (across[at] + after(across, j + 1 < nz, at + nx));
-                    self.m[k][at] = if open(at) { mobility(s, r[k]) } else { 0.0 };
+                    m[at] = if open(at) { mobility(s, r) } else { 0.0 };
                 }
             }
         }

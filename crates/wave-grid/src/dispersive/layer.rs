@@ -52,10 +52,10 @@ impl Layer {
 
     /// The window moves with `velocity`, in cells per sub-step over sqrt(G).
     pub(crate) fn move_with(&mut self, velocity: [f64; 2]) {
-        for k in 0..2 {
+        for (k, velocity) in velocity.into_iter().enumerate() {
             let strength = |away: f64| ((OFF[1] - away) / (OFF[1] - OFF[0])).clamp(0.0, 1.0);
             // Away from the low side is towards high coordinates.
-            let open = [strength(velocity[k]), strength(-velocity[k])];
+            let open = [strength(velocity), strength(-velocity)];
             if open
                 .iter()
                 .zip(&self.open[k])

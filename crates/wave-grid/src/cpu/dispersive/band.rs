@@ -48,7 +48,7 @@ impl Memory {
     }
 }
 
-fn split_all<'a, const N: usize>(arrays: [&'a mut [f32]; N], at: usize) -> [[&'a mut [f32]; N]; 2] {
+fn split_all<const N: usize>(arrays: [&mut [f32]; N], at: usize) -> [[&mut [f32]; N]; 2] {
     let mut high: [&mut [f32]; N] = std::array::from_fn(|_| &mut [][..]);
     let mut k = 0;
     let low = arrays.map(|array| {
