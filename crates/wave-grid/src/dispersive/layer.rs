@@ -13,9 +13,9 @@ use std::ops::Range;
 use super::FIELDS;
 
 /// sigma at the outer edge over sqrt(g / h): 48 / s where cells are 0.5 m.
-const STRENGTH: f64 = 10.84;
+pub(crate) const STRENGTH: f64 = 10.84;
 /// alpha where the layer begins, likewise: 1 / s.
-const SHIFT: f64 = 0.226;
+pub(crate) const SHIFT: f64 = 0.226;
 /// Speeds of the window away from a side, over sqrt(g h), where that begins to be switched off and where it is off: 1 and 2 m/s where
 /// cells are 0.5 m.
 const OFF: [f64; 2] = [0.45, 0.9];
@@ -39,32 +39,51 @@ pub(crate) struct Layer {
     cells: [usize; 2],
     width: usize,
     g: f64,
-    /// Share of its strength that each side has.
-    open: [[f64; 2]; 2],
+    sides: Sides,
 }
 
 impl Layer {
     pub(crate) fn new(cells: [usize; 2], width: usize, g: f64) -> Self {
-        let open = [[1.0; 2]; 2];
-        let axes = [0, 1].map(|k| axis(cells[k], width, g, open[k]));
-        Self { axes, memory: Memory::new(cells, width), cells, width, g, open }
+        let sides = Sides::default();
+        let axes = [0, 1].map(|k| axis(cells[k], width, g, sides.open[k]));
+        Self { axes, memory: Memory::new(cells, width), cells, width, g, sides }
     }
 
     /// The window moves with `velocity`, in cells per sub-step over sqrt(G).
     pub(crate) fn move_with(&mut self, velocity: [f64; 2]) {
-        for (k, velocity) in velocity.into_iter().enumerate() {
+        let changed = self.sides.move_with(velocity);
+        for k in (0..2).filter(|k| changed[*k]) {
+            self.axes[k] = axis(self.cells[k], self.width, self.g, self.sides.open[k]);
+        }
+    }
+}
+
+/// Share of its strength that each side has, low and high along x and along z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sides {
+    pub(crate) open: [[f64; 2]; 2],
+}
+
+impl Default for Sides {
+    fn default() -> Self {
+        Self { open: [[1.0; 2]; 2] }
+    }
+}
+
+impl Sides {
+    /// As [`Layer::move_with`]; which axes have changed.
+    pub(crate) fn move_with(&mut self, velocity: [f64; 2]) -> [bool; 2] {
+        std::array::from_fn(|k| {
             let strength = |away: f64| ((OFF[1] - away) / (OFF[1] - OFF[0])).clamp(0.0, 1.0);
             // Away from the low side is towards high coordinates.
-            let open = [strength(velocity), strength(-velocity)];
-            if open
-                .iter()
-                .zip(&self.open[k])
-                .any(|(now, was)| (now - was).abs() > NEAR || (*now != *was && *now % 1.0 == 0.0))
-            {
+            let open = [strength(velocity[k]), strength(-velocity[k])];
+            let differs = |(now, was): (&f64, &f64)| (now - was).abs() > NEAR || (*now != *was && *now % 1.0 == 0.0);
+            let changed = open.iter().zip(&self.open[k]).any(differs);
+            if changed {
                 self.open[k] = open;
-                self.axes[k] = axis(self.cells[k], self.width, self.g, open);
             }
-        }
+            changed
+        })
     }
 }
 
@@ -176,6 +195,15 @@ impl Memory {
                 for row in array.chunks_exact_mut(width) {
                     (row[0], row[nx - 1]) = (0.0, 0.0);
                 }
+            }
+        }
+        // Nor in zeta behind the layer's loops and at the last cell, and in either after it.
+        let Self { psi, zeta, .. } = self;
+        let zeroed = [(psi, &[2 * span - 1][..]), (zeta, &[span - 1, 2 * span - 2, 2 * span - 1])];
+        for ([along, across], entries) in zeroed {
+            for entry in entries {
+                along.iter_mut().flat_map(|array| array.chunks_exact_mut(2 * span)).for_each(|row| row[*entry] = 0.0);
+                across.iter_mut().for_each(|array| array[entry * nx..(entry + 1) * nx].fill(0.0));
             }
         }
     }
