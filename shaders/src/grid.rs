@@ -13,12 +13,18 @@
 //! GPU it takes a row.
 
 mod params;
+mod water;
 
 use crate::{Pass, surface::MAX_GRIDS};
 
 use params::{DRAW_PARAMS, PARAMS, QUERY_PARAMS, SCHEDULE_PARAMS};
 pub use params::{
     GridCell, GridDispatch, GridDraw, GridParams, GridQueries, GridQuery, GridSource, GridTile, TickParams,
+};
+pub use water::{
+    FACE_ARRAYS, FIELD_ARRAYS, FRESH_X, FRESH_Z, GridWater, GridWaterCell, NO_SLOT, SLOT_X_BIT, SLOT_X_VECTORS,
+    SLOT_Z_BIT, SLOT_Z_VECTORS, TickWater, WATER, WATER_LIST, WATER_MEDIUM, WATER_PREPARE, WATER_PREPARE_LIST,
+    WATER_STEP,
 };
 
 /// Cells along one side of a tile.
@@ -60,12 +66,15 @@ pub const FORCED: u32 = 64;
 pub const SOLID: u32 = 128;
 /// [`GridTile::flags`]: the medium is to be looked at.
 pub const MIXED_TILE: u32 = 32;
-/// Lists of tiles to be stepped, one a kind; the next list is of tiles to be prepared.
+/// Lists of tiles of the wave equation to be stepped, one a kind; the next list is of those to be prepared, then come
+/// [`WATER_LIST`] and [`WATER_PREPARE_LIST`].
 pub const KINDS: u32 = 4;
+/// Lists in all.
+pub const LIST_COUNT: u32 = KINDS + 3;
 /// Words of a tick's counts: for each list three numbers of workgroups and one of tiles, then a grid's tiles each.
 pub const COUNT_WORDS: u32 = ACTIVE_WORD + MAX_GRIDS as u32;
 /// Where in a tick's counts the tiles of each grid are.
-pub const ACTIVE_WORD: u32 = 4 * (KINDS + 1);
+pub const ACTIVE_WORD: u32 = 4 * LIST_COUNT;
 /// Threads of `grid_schedule`, a tile each.
 pub const SCHEDULE_THREADS: u32 = 64;
 
@@ -101,8 +110,9 @@ fn constants() -> String {
          const PREPARED: u32 = 8u;\nconst ENDING: u32 = 16u;\n\
          const FORCED: u32 = {FORCED}u;\nconst SOLID: u32 = {SOLID}u;\nconst MIXED_TILE: u32 = {MIXED_TILE}u;\n\
          const KIND_MASK: u32 = {}u;\nconst PREPARE_LIST: u32 = {KINDS}u;\nconst ACTIVE_WORD: u32 = {ACTIVE_WORD}u;\n\
-         const SCHEDULE_THREADS: u32 = {SCHEDULE_THREADS}u;\n",
-        KINDS - 1
+         const SCHEDULE_THREADS: u32 = {SCHEDULE_THREADS}u;\n{}",
+        KINDS - 1,
+        water::constants()
     )
 }
 
@@ -156,6 +166,7 @@ pub const STEP: Pass = Pass {
         include_str!("../wgsl/shared/grid_rows.wgsl"),
         include_str!("../wgsl/shared/grid_flux.wgsl"),
         include_str!("../wgsl/shared/grid_layer.wgsl"),
+        include_str!("../wgsl/shared/grid_foam.wgsl"),
         include_str!("../wgsl/shared/grid_advance.wgsl"),
         include_str!("../wgsl/grid_step.wgsl"),
     ],
@@ -186,4 +197,4 @@ pub const QUERY: Pass = Pass {
 };
 
 /// The passes of this area.
-pub const PASSES: &[Pass] = &[MEDIUM, SCHEDULE, PREPARE, STEP, DRAW, QUERY];
+pub const PASSES: &[Pass] = &[MEDIUM, SCHEDULE, PREPARE, STEP, WATER_MEDIUM, WATER_PREPARE, WATER_STEP, DRAW, QUERY];

@@ -40,14 +40,18 @@ fn grid_schedule(@builtin(global_invocation_id) id: vec3<u32>) {
     let prepared = ending || (wanted && (tile.z > 0u || grid.moved != STOOD));
     atomicStore(&grid_marks[marks_of(grid, 0u) + at.y * tiles.x + at.x], select(0u, STEPPED, wanted));
 
+    // What its layer remembers is of another tile.
+    let waking = (own & STEPPED) == 0u || grid.moved == CLEARED;
+    let water = (tile.w & WATER) != 0u;
     let foamy = (own & FOAMED) != 0u || tile.z > 0u;
     let flags = select(0u, ENDING, ending) | select(0u, PREPARED, prepared) | select(0u, FOAMED, foamy);
-    let entry = vec4<u32>(tile.xyz, flags | (tile.w & MIXED_TILE));
+    let kept = tile.w & (MIXED_TILE | FRESH_X | FRESH_Z | SLOTS_MASK);
+    let entry = vec4<u32>(tile.xyz, flags | kept | select(0u, FRESH_X | FRESH_Z, waking));
     if wanted {
         atomicAdd(&grid_counts[grid_dispatch.work + ACTIVE_WORD + slot], 1u);
-        push(tile.w & KIND_MASK, TILES_PER_GROUP, entry);
+        push(select(tile.w & KIND_MASK, WATER_LIST, water), TILES_PER_GROUP, entry);
     }
     if prepared {
-        push(PREPARE_LIST, 1u, entry);
+        push(select(PREPARE_LIST, WATER_PREPARE_LIST, water), 1u, entry);
     }
 }

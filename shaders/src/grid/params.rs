@@ -105,6 +105,10 @@ pub struct GridSource {
     pub foam: f32,
     /// Reach along x over reach along z, in cells.
     pub stretch: f32,
+    /// What the potential of a dispersive grid falls by in the middle, metres.
+    pub kick: f32,
+    /// Padding.
+    pub pad: f32,
 }
 
 /// Which dispatch this is.
@@ -234,7 +238,7 @@ pub(super) const SCHEDULE_PARAMS: &[crate::ParamLayout] = &[GRID, DISPATCH];
 pub(super) const PARAMS: &[crate::ParamLayout] = &[
     GRID,
     DISPATCH,
-    param_layout!(GridSource { center, outer, height, foam, stretch }),
+    param_layout!(GridSource { center, outer, height, foam, stretch, kick, pad }),
     param_layout!(GridCell { place, a, r, pad }),
 ];
 

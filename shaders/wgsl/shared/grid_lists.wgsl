@@ -4,6 +4,8 @@ struct GridSource {
     height: f32,
     foam: f32,
     stretch: f32,
+    kick: f32,
+    pad: f32,
 }
 
 struct GridCell {

@@ -4,6 +4,7 @@
 //! command that sets one up.
 
 mod context;
+mod grid_dispersive;
 mod grid_draw;
 mod grid_medium;
 mod grid_query;

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use bytemuck::{NoUninit, Zeroable};
 use open_water_shaders::grid::{
-    ACTIVE_WORD, ARRAYS, COUNT_WORDS, GridCell, GridDispatch, GridDraw, GridSource, GridTile, KINDS, MEDIUM_ARRAYS,
-    TILE, TickParams,
+    ACTIVE_WORD, ARRAYS, COUNT_WORDS, GridCell, GridDispatch, GridDraw, GridSource, GridTile, GridWaterCell,
+    LIST_COUNT, MEDIUM_ARRAYS, TILE, TickParams, TickWater,
 };
 use open_water_shaders::pipeline::bind_group;
 
@@ -13,6 +13,8 @@ use super::MAX_GRIDS;
 use super::flight::Flight;
 use super::pack::{self, Tick, Work};
 use super::pass::{DISPATCH_STRIDE, Passes};
+use super::water::Bases;
+use super::water_pass::WaterGroups;
 
 /// A buffer that is written anew and grows in powers of two.
 #[derive(Debug)]
@@ -65,6 +67,11 @@ pub(super) struct Buffers {
     memory: wgpu::Buffer,
     /// Empty while every medium is plain.
     ground: wgpu::Buffer,
+    /// Of dispersive grids: fields and what their layers remember, and the faces where the medium is not plain.
+    fields: wgpu::Buffer,
+    faces: wgpu::Buffer,
+    water: List,
+    water_cells: List,
     /// What the last step of every tile found.
     marks: wgpu::Buffer,
     /// What a schedule writes.
@@ -76,8 +83,8 @@ pub(super) struct Buffers {
     /// The dispatches' uniforms as uploaded.
     uniforms: Vec<Slot>,
     upload: Upload,
-    /// Heights, memory, medium and marks before they grew, until the encoder that copies them is done.
-    outgrown: Vec<(Flight, [wgpu::Buffer; 4])>,
+    /// Heights, memory, medium, marks, fields and faces before they grew, until the encoder that copies them is done.
+    outgrown: Vec<(Flight, [wgpu::Buffer; 6])>,
 }
 
 /// What is uploaded of all queued ticks.
@@ -87,6 +94,8 @@ struct Upload {
     tiles: Vec<GridTile>,
     sources: Vec<GridSource>,
     cells: Vec<GridCell>,
+    water: Vec<TickWater>,
+    water_cells: Vec<GridWaterCell>,
 }
 
 /// Bind groups of the ticks' passes.
@@ -96,6 +105,8 @@ pub(super) struct Groups {
     pub(super) schedule: wgpu::BindGroup,
     pub(super) lists: wgpu::BindGroup,
     pub(super) counts: wgpu::Buffer,
+    /// Where there are dispersive grids.
+    pub(super) water: Option<WaterGroups>,
 }
 
 const STATE_USAGE: wgpu::BufferUsages =
@@ -115,6 +126,10 @@ impl Buffers {
             heights: create(device, "grid heights", STATE_USAGE, 16),
             memory: create(device, "grid memory", STATE_USAGE, 16),
             ground: create(device, "grid ground", STATE_USAGE, 16),
+            fields: create(device, "grid fields", STATE_USAGE, 16),
+            faces: create(device, "grid faces", STATE_USAGE, 16),
+            water: list("grid water", uniform, 16),
+            water_cells: list("grid water cells", storage, 48),
             marks: create(device, "grid marks", STATE_USAGE, 16),
             list: create(device, "grid list", storage, 16),
             counts: list("grid counts", storage | wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::COPY_SRC, 4096),
@@ -126,25 +141,30 @@ impl Buffers {
         }
     }
 
-    /// Makes room for `vectors` of state, and for their medium where it is felt. What is there stays; what is new is zero.
+    /// Makes room for `vectors` of state and for what dispersive grids have, and for their medium where it is `felt`, by any
+    /// grid and by dispersive ones. What is there stays; what is new is zero.
     pub(super) fn reserve_state(
         &mut self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         vectors: u64,
-        felt: bool,
+        water: Bases,
+        felt: [bool; 2],
     ) {
         self.settle();
-        let before = [&self.heights, &self.memory, &self.ground, &self.marks].map(wgpu::Buffer::clone);
+        let before = [&self.heights, &self.memory, &self.ground, &self.marks, &self.fields, &self.faces];
+        let before = before.map(wgpu::Buffer::clone);
         let mut grown = false;
         let bytes = 16 * vectors;
         let of_ground = bytes * u64::from(MEDIUM_ARRAYS) / u64::from(ARRAYS);
         for (buffer, label, bytes) in [
             (&mut self.heights, "grid heights", bytes),
             (&mut self.memory, "grid memory", bytes),
-            (&mut self.ground, "grid ground", if felt { of_ground } else { 0 }),
+            (&mut self.ground, "grid ground", if felt[0] { of_ground } else { 0 }),
             // Two words a tile.
             (&mut self.marks, "grid marks", 8 * vectors / u64::from(TILE * TILE)),
+            (&mut self.fields, "grid fields", 16 * u64::from(water.fields)),
+            (&mut self.faces, "grid faces", if felt[1] { 16 * u64::from(water.faces) } else { 0 }),
         ] {
             if bytes > buffer.size() {
                 let larger = create(device, label, STATE_USAGE, bytes);
@@ -164,7 +184,7 @@ impl Buffers {
     fn settle(&mut self) {
         if let Some(lost) = self.outgrown.iter().position(|(flight, _)| flight.is_lost()) {
             for (_, before) in self.outgrown.drain(lost..).take(1) {
-                [self.heights, self.memory, self.ground, self.marks] = before;
+                [self.heights, self.memory, self.ground, self.marks, self.fields, self.faces] = before;
             }
             self.groups = None;
             self.draw_group = None;
@@ -180,16 +200,19 @@ impl Buffers {
         passes: &Passes,
         ticks: &mut VecDeque<Tick>,
     ) -> &Groups {
-        let Self { uniforms, upload: Upload { params, tiles, sources, cells }, .. } = self;
+        let Self { uniforms, upload: Upload { params, tiles, sources, cells, water, water_cells }, .. } = self;
         uniforms.clear();
         params.clear();
         tiles.clear();
         sources.clear();
         cells.clear();
+        water.clear();
+        water_cells.clear();
+        let any_water = ticks.iter().any(|tick| tick.water.is_some());
         let mut most_tiles = 0;
         let mut counts = Vec::with_capacity(ticks.len() * COUNT_WORDS as usize);
         for (tick, index) in ticks.iter_mut().zip(0..) {
-            tick.first = [tiles.len() as u32, cells.len() as u32];
+            tick.first = [tiles.len() as u32, cells.len() as u32, water_cells.len() as u32];
             most_tiles = tick.tiles.len().max(most_tiles);
             let first_source = sources.len() as u32;
             let moved = |tile: &GridTile| GridTile { first_source: tile.first_source + first_source, ..*tile };
@@ -197,6 +220,10 @@ impl Buffers {
             params.push(tick.params);
             sources.extend_from_slice(&tick.sources);
             cells.extend_from_slice(&tick.cells);
+            water_cells.extend_from_slice(&tick.water_cells);
+            if any_water {
+                water.push(tick.water.as_deref().copied().unwrap_or_else(TickWater::zeroed));
+            }
             let of_tick = index * COUNT_WORDS;
             for Work { first, substep, count, groups, .. } in tick.dispatches() {
                 let work = match groups {
@@ -216,8 +243,13 @@ impl Buffers {
         stale |= self.tiles.write(device, queue, tiles);
         stale |= self.sources.write(device, queue, sources);
         stale |= self.cells.write(device, queue, cells);
+        if any_water {
+            stale |= self.water.write(device, queue, water);
+            stale |= self.water_cells.write(device, queue, water_cells);
+            stale |= self.groups.as_ref().is_some_and(|groups| groups.water.is_none());
+        }
         stale |= self.counts.write(device, queue, &counts);
-        let list = most_tiles as u64 * u64::from(KINDS + 1) * 16;
+        let list = most_tiles as u64 * u64::from(LIST_COUNT) * 16;
         if list > self.list.size() {
             self.list = create(device, "grid list", wgpu::BufferUsages::STORAGE, list);
             stale = true;
@@ -237,7 +269,22 @@ impl Buffers {
             let lists = [&self.sources.buffer, &self.cells.buffer, &self.list, &self.counts.buffer, &self.marks];
             let [schedule, lists] = [&schedule[..], &lists[..]]
                 .map(|buffers| buffers.iter().map(|buffer| buffer.as_entire_binding()).collect::<Vec<_>>());
+            let water = passes.water.as_ref().filter(|_| any_water).map(|passes| {
+                let params = first(&self.water, size_of::<TickWater>());
+                let of = |layout, others: &[&wgpu::Buffer]| {
+                    let mut resources = vec![params.clone()];
+                    let shared = [&self.fields, &self.faces];
+                    resources.extend(shared.iter().chain(others).map(|buffer| buffer.as_entire_binding()));
+                    bind_group(device, "grid water", layout, &resources)
+                };
+                WaterGroups {
+                    medium: of(&passes.medium_layout, &[&self.water_cells.buffer]),
+                    prepare: of(&passes.prepare_layout, &[&self.list, &self.sources.buffer]),
+                    step: of(&passes.step_layout, &[&self.list, &self.counts.buffer, &self.marks]),
+                }
+            });
             Groups {
+                water,
                 state: bind_group(device, "grid state", &passes.state_layout, &state),
                 schedule: bind_group(device, "grid schedule", &passes.schedule_layout, &schedule),
                 lists: bind_group(device, "grid lists", &passes.lists_layout, &lists),

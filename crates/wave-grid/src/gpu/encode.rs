@@ -1,15 +1,18 @@
 //! Writes the queued ticks, and the drawing of grids, into encoders.
 
-use open_water_shaders::grid::{self as shader, DRAW_THREADS, TickParams};
+use open_water_shaders::grid::{self as shader, DRAW_THREADS, TickParams, TickWater};
 
 use super::flight::Flight;
 use super::pack::{self, Kind};
+use super::water_pass::WaterGroups;
 use super::{GpuGridId, GpuGrids, MAX_GRIDS, pass};
 
 impl GpuGrids {
     pub(super) fn reserve(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
-        let felt = self.grids.iter().any(|grid| grid.cells().is_some());
-        self.buffers.reserve_state(device, encoder, u64::from(self.state_vectors()), felt);
+        let felt = self.grids.iter().filter(|grid| grid.cells().is_some());
+        let felt = felt.fold([false; 2], |[_, water], grid| [true, water || grid.water.is_some()]);
+        let (vectors, water) = (u64::from(self.state_vectors()), self.water_end());
+        self.buffers.reserve_state(device, encoder, vectors, water, felt);
     }
 
     /// Encodes the queued ticks, and takes what has come back of earlier ones. Submit the encoder, or drop it, before
@@ -29,17 +32,30 @@ impl GpuGrids {
         self.activity.expect(&last.grids);
         let counts = (self.ticks.len() - 1) as u64 * u64::from(4 * shader::COUNT_WORDS);
         self.reserve(device, encoder);
+        if self.ticks.iter().any(|tick| tick.water.is_some()) {
+            self.passes.need_water(device);
+        }
         let groups = self.buffers.upload(device, queue, &self.passes, &mut self.ticks);
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() });
         let mut dispatch = 0;
         for (index, tick) in (0..).zip(&self.ticks) {
             let params = index * size_of::<TickParams>() as u32;
+            let water = index * size_of::<TickWater>() as u32;
             for work in tick.dispatches() {
-                pass.set_pipeline(self.passes.of(work.kind));
+                let own = |of: fn(&WaterGroups) -> &wgpu::BindGroup| groups.water.as_ref().map(of);
+                let (lists, offset): (_, &[u32]) = match work.kind {
+                    Kind::Schedule => (Some(&groups.schedule), &[]),
+                    Kind::Medium | Kind::Prepare { .. } | Kind::Step { .. } => (Some(&groups.lists), &[]),
+                    Kind::WaterMedium => (own(|groups| &groups.medium), &[water]),
+                    Kind::WaterPrepare => (own(|groups| &groups.prepare), &[water]),
+                    Kind::WaterStep { .. } => (own(|groups| &groups.step), &[water]),
+                };
+                // All are there once compiled.
+                let (Some(pipeline), Some(lists)) = (self.passes.of(work.kind), lists) else { continue };
+                pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, &groups.state, &[dispatch * pass::DISPATCH_STRIDE, params]);
-                let lists = if matches!(work.kind, Kind::Schedule) { &groups.schedule } else { &groups.lists };
-                pass.set_bind_group(1, lists, &[]);
+                pass.set_bind_group(1, lists, offset);
                 match work.groups {
                     pack::Groups::Counted(count) => pass.dispatch_workgroups(count, 1, 1),
                     pack::Groups::Listed(list) => {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use open_water_shaders::grid as shader;
 
 use super::land::Land;
+use super::water::Water;
 use crate::border::Profile;
 use crate::cpu::foam::FoamLaw;
 use crate::dispersive::Table;
@@ -46,6 +47,8 @@ pub(super) struct Grid {
     pub(super) removed: bool,
     /// What it lies in.
     pub(super) land: Option<Land>,
+    /// What it has if its scheme is the dispersive one.
+    pub(super) water: Option<Water>,
 }
 
 impl Grid {
@@ -57,7 +60,12 @@ impl Grid {
     /// Ticks after which what a source did has left: waves need some crossings, foam seven time constants.
     pub(super) fn rest_ticks(&self) -> u32 {
         let [x, z] = std::array::from_fn(|k| self.desc.cells[k] as f32 * self.desc.cell_size[k]);
-        let crossing = (x * x + z * z).sqrt() / self.desc.wave_speed;
+        let speed = match self.water {
+            // The shortest waves that the scheme carries.
+            Some(_) => 0.49 * (9.81 * self.desc.cell_size[0]).sqrt(),
+            None => self.desc.wave_speed,
+        };
+        let crossing = (x * x + z * z).sqrt() / speed;
         // Between walls they stay longer.
         let crossings = if self.cells().is_some() { 32.0 } else { 8.0 };
         let seconds = (crossings * crossing).max(7.0 * crate::cpu::foam::DECAY);

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use open_water_shaders::grid::GridCell;
+use open_water_shaders::grid::{GridCell, GridWaterCell};
 
 use crate::cpu::tiles::{Class, Tiles};
 use crate::desc::TILE;
-use crate::ground::{Ground, REACH};
+use crate::ground::{Cells, Ground, REACH};
 use crate::medium::{CellLaw, SharedMedium};
 use crate::window::Window;
 
@@ -70,6 +70,24 @@ impl Land {
 
     /// Appends what the GPU has not heard of, for the grid at `slot` of the tick.
     pub(super) fn upload(&mut self, slot: u32, torus: [usize; 2], list: &mut Vec<GridCell>) {
+        self.each_stale(slot, torus, |cells, at, place| {
+            list.push(GridCell { place, a: cells.a[at], r: cells.r[at], pad: 0 });
+        });
+    }
+
+    /// The same of a dispersive grid.
+    pub(super) fn upload_water(&mut self, slot: u32, torus: [usize; 2], list: &mut Vec<GridWaterCell>) {
+        self.each_stale(slot, torus, |cells, at, place| {
+            let [along, across] = match &cells.bed {
+                Some(bed) => bed.faces.each_ref().map(|faces| faces.each_ref().map(|face| face[at])),
+                None => [[0.0; 4]; 2],
+            };
+            list.push(GridWaterCell { along, across, place, a: cells.a[at], r: cells.r[at], pad: 0 });
+        });
+    }
+
+    /// Calls `of` with every cell that the GPU has not heard of, and with what [`GridCell::place`] is for it.
+    fn each_stale(&mut self, slot: u32, torus: [usize; 2], mut of: impl FnMut(&Cells, usize, u32)) {
         let Some(cells) = &self.ground.cells else { return };
         for [x, z] in self.stale.drain(..) {
             let within = |range: &Range<i64>, k: usize| {
@@ -82,7 +100,7 @@ impl Land {
                 for world_x in within(&x, 0) {
                     let at = row + (world_x - self.corner[0]) as usize;
                     let place = place_z + world_x.rem_euclid(torus[0] as i64) as usize;
-                    list.push(GridCell { place: place as u32 | slot << 24, a: cells.a[at], r: cells.r[at], pad: 0 });
+                    of(cells, at, place as u32 | slot << 24);
                 }
             }
         }

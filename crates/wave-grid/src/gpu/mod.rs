@@ -2,7 +2,8 @@
 //!
 //! All grids share their state buffers and one list of tiles, so a tick costs one dispatch that lists the busy tiles, one
 //! that prepares and two for each sub-step (tiles without and with cells of the layer), however many grids there are; where
-//! a medium is felt, one more that stores it and two more for each sub-step. All but the first are indirect: the last
+//! a medium is felt, one more that stores it and two more for each sub-step. Grids of the dispersive scheme add one that
+//! prepares, one for each sub-step, and one where their medium is stored. All but the first are indirect: the last
 //! sub-step marks the tiles that hold waves, and the next tick steps these and their neighbours, as the CPU's grids do.
 //! How many they were comes back some ticks later; a grid sleeps once there was none and nothing has disturbed it since.
 
@@ -15,6 +16,8 @@ mod land;
 mod pack;
 mod pass;
 mod query;
+mod water;
+mod water_pass;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -26,7 +29,7 @@ use crate::cpu::foam::FoamLaw;
 use crate::medium::{Medium, SharedMedium};
 use crate::source::footprint::{Footprint, Shape, Site};
 use crate::window::{Move, Place};
-use crate::{Border, GridDesc, GridError, Source, Window};
+use crate::{Border, GridDesc, GridError, Scheme, Source, Window};
 
 use activity::Activity;
 use buffers::Buffers;
@@ -35,6 +38,7 @@ use grid::Grid;
 use pack::Packer;
 use pass::Passes;
 use query::Queries;
+use water::{Bases, Water};
 
 pub use query::{Answer, MAX_QUERY_POINTS};
 
@@ -95,9 +99,15 @@ impl GpuGrids {
     /// Adds a calm grid around the world's origin.
     ///
     /// # Errors
-    /// As [`crate::WaveGrid::new`], when its border does not absorb by a matched layer, and when there are [`MAX_GRIDS`] already.
+    /// As [`crate::WaveGrid::new`], when its scheme is [`Scheme::Spectral`], when its border does not absorb by a matched layer,
+    /// when there are [`MAX_GRIDS`] already, and when all grids together would have too many cells: 8,388,608, of the
+    /// dispersive scheme at most 4,194,304.
     pub fn insert(&mut self, desc: GridDesc) -> Result<GpuGridId, GridError> {
         let stepping = desc.stepping()?;
+        if desc.scheme == Scheme::Spectral {
+            let bound = "a scheme of local stencils: the spectral one is for grids on the CPU";
+            return Err(GridError::InvalidValue { field: "scheme (3, spectral)", value: 3.0, bound });
+        }
         if !matches!(desc.border, Border::Absorbing { .. }) {
             let bound = "absorbing: grids on the GPU have no other";
             return Err(GridError::InvalidValue { field: "border: width", value: desc.border.width().into(), bound });
@@ -108,15 +118,32 @@ impl GpuGrids {
             return Err(GridError::InvalidValue { field: "grids", value, bound: "at most 32 grids" });
         }
         let torus = desc.cells.map(|n| (n as usize).next_multiple_of(crate::TILE));
-        let free = self.grids.iter().position(|grid| grid.removed && grid.torus == torus);
+        let alike = |grid: &Grid| {
+            let dispersive = [grid.desc.scheme, desc.scheme].map(|scheme| scheme == Scheme::Dispersive);
+            // What a layer remembers takes more room the wider it is.
+            dispersive[0] == dispersive[1]
+                && (!dispersive[0] || (grid.desc.border, grid.desc.cells) == (desc.border, desc.cells))
+        };
+        let free = self.grids.iter().position(|grid| grid.removed && grid.torus == torus && alike(grid));
+        let bases = match free.and_then(|at| self.grids[at].water.as_ref()) {
+            Some(water) => water.bases,
+            None => self.water_end(),
+        };
+        let water = Water::new(&desc, &stepping, torus, bases);
         let base = free.map_or(self.state_vectors(), |at| self.grids[at].base);
         let bytes = 16 * (u64::from(base) + (torus[0] * torus[1]) as u64);
+        let most = water.as_ref().map_or(0, |water| water.end().fields.max(water.end().faces));
+        if 16 * u64::from(most) > MAX_STATE_BYTES {
+            let bound = "such that all dispersive grids together hold at most 4,194,304 cells";
+            return Err(GridError::InvalidValue { field: "cells", value: (torus[0] * torus[1]) as f64, bound });
+        }
         if bytes > MAX_STATE_BYTES {
             let bound = "such that all grids together hold at most 8,388,608 cells";
             return Err(GridError::InvalidValue { field: "cells", value: (torus[0] * torus[1]) as f64, bound });
         }
         let mut grid = Grid {
             land: None,
+            water,
             place: Place::new(&desc),
             law: FoamLaw::new(&desc, &stepping),
             moving: false,
@@ -168,6 +195,15 @@ impl GpuGrids {
         self.grids.last().map_or(0, |g| g.base + shader::ARRAYS * g.stride())
     }
 
+    /// One past what dispersive grids have in the buffers of fields and faces.
+    fn water_end(&self) -> Bases {
+        let ends = self.grids.iter().filter_map(|grid| Some(grid.water.as_ref()?.end()));
+        ends.fold(Bases::default(), |most, end| Bases {
+            fields: most.fields.max(end.fields),
+            faces: most.faces.max(end.faces),
+        })
+    }
+
     /// As [`crate::WaveGrid::center_on`], felt from the next tick on.
     pub fn center_on(&mut self, id: GpuGridId, target: DVec2) {
         let grid = &mut self.grids[id.0];
@@ -187,6 +223,9 @@ impl GpuGrids {
             Move::Clear => {
                 grid.clear = true;
                 grid.moving = false;
+                if let Some(water) = &mut grid.water {
+                    water.clear();
+                }
                 grid.sources.clear();
                 let medium = grid.land.take().map(|land| land.ground.medium);
                 grid.set_medium(medium);
@@ -201,7 +240,8 @@ impl GpuGrids {
         }
     }
 
-    /// As [`crate::WaveGrid::add`]. [`Source::Box`] and [`Source::Pressure`] are not known here: dropped and counted.
+    /// As [`crate::WaveGrid::add`]. [`Source::Box`] is not known here, nor is [`Source::Pressure`] on grids of the wave
+    /// equation: dropped and counted.
     pub fn add(&mut self, id: GpuGridId, source: Source) -> bool {
         let origin = self.origin;
         let [first, second] = &mut self.weights;
@@ -209,7 +249,8 @@ impl GpuGrids {
         let rim = grid.desc.border.width() as usize + 2;
         let site = Site { window: &grid.place.window, origin, rim, cells: grid.cells() };
         let parts = site.place(source, [first, second]);
-        let known = |part: &Footprint| matches!(part.shape, Shape::Disc { .. }) && part.head == 0.0;
+        let presses = grid.water.is_some();
+        let known = |part: &Footprint| matches!(part.shape, Shape::Disc { .. }) && (presses || part.head == 0.0);
         let Some(parts) = parts.filter(|parts| parts.iter().flatten().all(known)) else {
             grid.dropped += 1;
             return false;
@@ -227,6 +268,11 @@ impl GpuGrids {
             return false;
         }
         self.queued_ticks += 1;
+        for grid in &mut self.grids {
+            if let Some(water) = &mut grid.water {
+                water.note(&grid.place, &grid.stepping);
+            }
+        }
         let tick = self.packer.pack(&mut self.grids);
         if !tick.substeps.is_empty() {
             self.ticks.push_back(tick);
@@ -257,6 +303,16 @@ impl GpuGrids {
     /// Tiles that a grid stepped in the last tick of which the GPU has told; `None` before the first.
     pub fn active_tiles(&self, id: GpuGridId) -> Option<u32> {
         self.grids[id.0].active
+    }
+
+    /// Bytes that a grid's state has in the device's memory, what it knows of its medium included.
+    pub fn bytes(&self, id: GpuGridId) -> u64 {
+        let grid = &self.grids[id.0];
+        let felt = grid.cells().is_some();
+        let ground = if felt { shader::MEDIUM_ARRAYS } else { 0 };
+        // Heights and memory.
+        let vectors = (2 * shader::ARRAYS + ground) * grid.stride();
+        16 * u64::from(vectors) + grid.water.as_ref().map_or(0, |water| water.bytes(felt))
     }
 
     /// Sources of a grid dropped so far.

@@ -1,9 +1,11 @@
 //! Turns a tick of all grids into what the passes read: parameters, tiles, sources.
 
 use open_water_shaders::grid::{
-    CLEARED, FORCED, GridCell, GridParams, GridSource, GridTile, KINDS, MEDIUM_THREADS, MIXED_TILE, SCHEDULE_THREADS,
-    SHIFTED, SOLID, STOOD, TickParams,
+    CLEARED, FORCED, GridCell, GridParams, GridSource, GridTile, GridWaterCell, KINDS, MEDIUM_THREADS, MIXED_TILE,
+    SCHEDULE_THREADS, SHIFTED, SOLID, STOOD, TickParams, TickWater, WATER_LIST, WATER_PREPARE_LIST,
 };
+
+use bytemuck::Zeroable;
 
 use super::GpuGridId;
 use super::grid::Grid;
@@ -36,12 +38,20 @@ pub(super) struct Tick {
     pub(super) sources: Vec<GridSource>,
     /// What to store of the medium.
     pub(super) cells: Vec<GridCell>,
-    /// Where its tiles and cells begin in the upload.
-    pub(super) first: [u32; 2],
-    /// A grid moved.
+    /// The same of dispersive grids.
+    pub(super) water_cells: Vec<GridWaterCell>,
+    /// Of dispersive grids, if there are any.
+    pub(super) water: Option<Box<TickWater>>,
+    /// Where its tiles, cells and dispersive grids' cells begin in the upload.
+    pub(super) first: [u32; 3],
+    /// There are grids of the wave equation.
+    waves: bool,
+    /// One of them moved.
     moved: bool,
-    /// A tile is mixed.
+    /// A tile of theirs is mixed.
     medium: bool,
+    /// A tile of a dispersive grid is mixed.
+    water_medium: bool,
     pub(super) substeps: Vec<Substep>,
     /// Which grid stands at each place of its parameters, and the number of its tick.
     pub(super) grids: Vec<(GpuGridId, u64)>,
@@ -54,6 +64,9 @@ pub(super) struct Substep {
     lists: [bool; KINDS as usize],
     /// It is the last of some grid.
     last: bool,
+    /// There are dispersive grids, and it is the last of some of them.
+    water: bool,
+    water_last: bool,
 }
 
 /// A pipeline.
@@ -63,6 +76,9 @@ pub(super) enum Kind {
     Schedule,
     Prepare { moved: bool, medium: bool },
     Step { tiles: TileKind, last: bool },
+    WaterMedium,
+    WaterPrepare,
+    WaterStep { mixed: bool, last: bool },
 }
 
 /// How many workgroups a dispatch has.
@@ -87,21 +103,33 @@ pub(super) struct Work {
 impl Tick {
     /// The tick's dispatches in order.
     pub(super) fn dispatches(&self) -> impl Iterator<Item = Work> {
-        let [count, cells] = [self.tiles.len(), self.cells.len()].map(|n| n as u32);
-        let [first_tile, first_cell] = self.first;
-        let groups = Groups::Counted(cells.div_ceil(MEDIUM_THREADS));
-        let medium = Work { kind: Kind::Medium, first: first_cell, count: cells, substep: 0, groups };
+        let [count, cells, water_cells] =
+            [self.tiles.len(), self.cells.len(), self.water_cells.len()].map(|n| n as u32);
+        let [first_tile, first_cell, first_water_cell] = self.first;
+        let stored = |kind, first, count: u32| {
+            let groups = Groups::Counted(count.div_ceil(MEDIUM_THREADS));
+            (count > 0).then_some(Work { kind, first, count, substep: 0, groups })
+        };
+        let medium = stored(Kind::Medium, first_cell, cells);
+        let water_medium = stored(Kind::WaterMedium, first_water_cell, water_cells);
         let groups = Groups::Counted(count.div_ceil(SCHEDULE_THREADS));
         let schedule = Work { kind: Kind::Schedule, first: first_tile, count, substep: 0, groups };
         let listed =
             move |kind, list, substep| Work { kind, first: list * count, count, substep, groups: Groups::Listed(list) };
         let prepare = listed(Kind::Prepare { moved: self.moved, medium: self.medium }, KINDS, 0);
-        let steps = (0..).zip(&self.substeps).flat_map(move |(substep, &Substep { lists, last })| {
-            (0..KINDS)
+        let water_prepare = listed(Kind::WaterPrepare, WATER_PREPARE_LIST, 0);
+        let mixed = self.water_medium;
+        let steps = (0..).zip(&self.substeps).flat_map(move |(substep, own)| {
+            let Substep { lists, last, water, water_last } = *own;
+            let waves = (0..KINDS)
                 .filter(move |list| lists[*list as usize])
-                .map(move |list| listed(Kind::Step { tiles: TileKind::of(list as usize), last }, list, substep))
+                .map(move |list| listed(Kind::Step { tiles: TileKind::of(list as usize), last }, list, substep));
+            let water = water.then(|| listed(Kind::WaterStep { mixed, last: water_last }, WATER_LIST, substep));
+            waves.chain(water)
         });
-        (cells > 0).then_some(medium).into_iter().chain([schedule, prepare]).chain(steps)
+        let prepared =
+            [self.waves.then_some(prepare), self.water.is_some().then_some(water_prepare)].into_iter().flatten();
+        medium.into_iter().chain(water_medium).chain([schedule]).chain(prepared).chain(steps)
     }
 }
 
@@ -112,6 +140,7 @@ pub(super) struct Packer {
     tiles: Vec<GridTile>,
     sources: Vec<GridSource>,
     cells: Vec<GridCell>,
+    water_cells: Vec<GridWaterCell>,
     /// ((grid, place of a tile), source).
     placed: Vec<((u32, u32), GridSource)>,
     /// (grid, place of a tile) with a source in it or beside it.
@@ -146,29 +175,49 @@ impl Packer {
             grid.awake -= u32::from(grid.awake > 1 || grid.active.is_none());
             grid.clear |= grid.awake == 0;
             tick.params[slot] = packed(grid);
-            tick.moved |= tick.params[slot].moved != STOOD;
-            self.place_sources(slot as u32, grid);
-            if let Some(land) = &mut grid.land {
-                land.upload(slot as u32, grid.torus, &mut self.cells);
+            let (corner, width) = (grid.torus_corner(), grid.desc.border.width());
+            if let Some(water) = &mut grid.water {
+                let of_tick = tick.water.get_or_insert_with(|| Box::new(TickWater::zeroed()));
+                of_tick[slot] = water.packed(corner, width);
+                if let Some(land) = &mut grid.land {
+                    land.upload_water(slot as u32, grid.torus, &mut self.water_cells);
+                }
+            } else {
+                tick.waves = true;
+                tick.moved |= tick.params[slot].moved != STOOD;
+                if let Some(land) = &mut grid.land {
+                    land.upload(slot as u32, grid.torus, &mut self.cells);
+                }
             }
+            self.place_sources(slot as u32, grid);
         }
         self.placed.sort_by_key(|(tile, _)| *tile);
         self.forced.sort_unstable();
         let mut lists = [false; KINDS as usize];
         for (slot, g) in order.iter().enumerate() {
             let grid = &grids[*g];
-            self.pack_tiles(slot as u32, grid, &mut lists);
+            let mut of_grid = [false; KINDS as usize];
+            self.pack_tiles(slot as u32, grid, &mut of_grid);
             tick.grids.push((GpuGridId(*g), grid.ticks));
+            let water = grid.water.is_some();
+            if water {
+                tick.water_medium |= of_grid[2] || of_grid[3];
+            } else {
+                lists.iter_mut().zip(of_grid).for_each(|(any, own)| *any |= own);
+            }
             let own = grid.stepping.substeps as usize;
             for (k, substep) in tick.substeps.iter_mut().take(own).enumerate() {
                 substep.lists = lists;
-                substep.last |= k + 1 == own;
+                substep.last |= !water && k + 1 == own;
+                substep.water |= water;
+                substep.water_last |= water && k + 1 == own;
             }
         }
         tick.medium = lists[2] || lists[3];
         tick.tiles = std::mem::take(&mut self.tiles);
         tick.sources = std::mem::take(&mut self.sources);
         tick.cells = std::mem::take(&mut self.cells);
+        tick.water_cells = std::mem::take(&mut self.water_cells);
         for g in order {
             let grid = &mut grids[g];
             grid.parity = (grid.parity + grid.stepping.substeps) & 1;
@@ -201,7 +250,8 @@ impl Packer {
                     Class::Mixed => MIXED_TILE,
                     Class::Solid => SOLID,
                 };
-                self.pack_tile(slot, (column | row << 8) as u32, list as u32 | more);
+                let water = grid.water.as_ref().map_or(0, |water| water.flags(column, row));
+                self.pack_tile(slot, (column | row << 8) as u32, list as u32 | more | water);
             }
         }
     }
@@ -219,7 +269,8 @@ impl Packer {
     /// Lists the grid's sources by tile, each tile's in the order they were added.
     fn place_sources(&mut self, slot: u32, grid: &Grid) {
         let corner = grid.place.window.corner;
-        for (Footprint { center, shape, height, foam, range, .. }, placed_at) in &grid.sources {
+        let per_head = f64::from(grid.stepping.substeps) * grid.stepping.a[0];
+        for (Footprint { center, shape, height, head, foam, range }, placed_at) in &grid.sources {
             let Shape::Disc { outer, stretch } = shape else { continue };
             let since: [i64; 2] = std::array::from_fn(|k| corner[k] - placed_at[k]);
             let source = GridSource {
@@ -228,6 +279,8 @@ impl Packer {
                 height: *height,
                 foam: *foam,
                 stretch: *stretch,
+                kick: (per_head * f64::from(*head)) as f32,
+                pad: 0.0,
             };
             let tiles: [std::ops::RangeInclusive<i64>; 2] = std::array::from_fn(|k| {
                 let world = |cell: usize| (cell as i64 + placed_at[k]).div_euclid(TILE as i64);

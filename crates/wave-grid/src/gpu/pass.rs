@@ -2,6 +2,7 @@
 
 use super::MAX_GRIDS;
 use super::pack::{Kind, TileKind};
+use super::water_pass::WaterPasses;
 use open_water_shaders::grid::{self as shader, GridDispatch, GridDraw, StepShape, TickParams};
 use open_water_shaders::pipeline::{Slot, compute_pipeline, group_layout};
 
@@ -25,6 +26,9 @@ pub(super) struct Passes {
     step: [[[wgpu::ComputePipeline; 2]; 2]; 2],
     /// Without and with grids that have walls.
     pub(super) draw: [wgpu::ComputePipeline; 2],
+    shape: StepShape,
+    /// Once there has been a dispersive grid.
+    pub(super) water: Option<WaterPasses>,
 }
 
 impl Passes {
@@ -69,12 +73,21 @@ impl Passes {
             draw_layout,
             schedule_layout,
             lists_layout,
+            shape,
+            water: None,
         }
     }
 
-    /// The pipeline of a dispatch.
-    pub(super) fn of(&self, kind: Kind) -> &wgpu::ComputePipeline {
-        match kind {
+    /// Compiles what dispersive grids need, once.
+    pub(super) fn need_water(&mut self, device: &wgpu::Device) {
+        if self.water.is_none() {
+            self.water = Some(WaterPasses::new(device, &self.state_layout, self.shape));
+        }
+    }
+
+    /// The pipeline of a dispatch; `None` where what dispersive grids need has not been compiled.
+    pub(super) fn of(&self, kind: Kind) -> Option<&wgpu::ComputePipeline> {
+        Some(match kind {
             Kind::Medium => &self.medium,
             Kind::Schedule => &self.schedule,
             Kind::Prepare { moved, medium } => &self.prepare[usize::from(moved)][usize::from(medium)],
@@ -82,6 +95,9 @@ impl Passes {
                 let TileKind { layer, mixed } = tiles;
                 &self.step[usize::from(layer)][usize::from(last)][usize::from(mixed)]
             }
-        }
+            Kind::WaterMedium => &self.water.as_ref()?.medium,
+            Kind::WaterPrepare => &self.water.as_ref()?.prepare,
+            Kind::WaterStep { mixed, last } => &self.water.as_ref()?.step[usize::from(last)][usize::from(mixed)],
+        })
     }
 }
