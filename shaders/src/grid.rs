@@ -19,7 +19,7 @@ use crate::{Pass, surface::MAX_GRIDS};
 
 use params::{DRAW_PARAMS, PARAMS, QUERY_PARAMS, SCHEDULE_PARAMS};
 pub use params::{
-    GridCell, GridDispatch, GridDraw, GridParams, GridQueries, GridQuery, GridSource, GridTile, TickParams,
+    GridCell, GridDispatch, GridDraw, GridHole, GridParams, GridQueries, GridQuery, GridSource, GridTile, TickParams,
 };
 pub use water::{
     FACE_ARRAYS, FIELD_ARRAYS, FRESH_X, FRESH_Z, GridWater, GridWaterCell, NO_SLOT, SLOT_X_BIT, SLOT_X_VECTORS,
@@ -29,6 +29,8 @@ pub use water::{
 
 /// Cells along one side of a tile.
 pub const TILE: u32 = 16;
+/// Most holes that are cut out of a grid.
+pub const MAX_HOLES: usize = 8;
 /// Threads of a workgroup that prepares a tile.
 pub const TILE_THREADS: u32 = TILE * TILE / 4;
 /// Threads along x of `grid_draw`.
@@ -119,7 +121,7 @@ fn constants() -> String {
 fn draw_constants() -> String {
     format!(
         "const DRAW_THREADS: u32 = {DRAW_THREADS}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\n\
-         const NO_MEDIUM: u32 = {NO_MEDIUM}u;\nconst QUERY_THREADS: u32 = {QUERY_THREADS}u;\n"
+         const MAX_HOLES: u32 = {MAX_HOLES}u;\nconst NO_MEDIUM: u32 = {NO_MEDIUM}u;\nconst QUERY_THREADS: u32 = {QUERY_THREADS}u;\n"
     )
 }
 
@@ -174,7 +176,8 @@ pub const STEP: Pass = Pass {
     params: PARAMS,
 };
 
-/// Height and foam as drawn. `override MEDIUM` tells whether a grid among them has walls.
+/// Height and foam as drawn. `override MEDIUM` tells whether a grid among them has walls, `override HOLES` whether one has
+/// holes.
 pub const DRAW: Pass = Pass {
     name: "grid_draw",
     constants: draw_constants,

@@ -204,7 +204,7 @@ impl Bodies {
     pub(crate) fn disturb(&self, grids: &mut Grids) {
         for entry in self.list.iter().filter(|entry| entry.active) {
             let Some(home) = entry.homes.now() else { continue };
-            for grid in grids.iter_mut().filter(|grid| grid.id == home || grid.into == Some(home)) {
+            for grid in grids.taking(home) {
                 for d in &entry.displaced {
                     let center = Vec2::new(d.center.x, d.center.y);
                     if d.volume != 0.0 {

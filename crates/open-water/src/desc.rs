@@ -5,7 +5,7 @@ use glam::{DVec2, Vec3};
 use ocean_spectrum::{CascadeDesc, OceanDesc, SeaState};
 use wave_grid::{Border, Edges, Rain, Scheme};
 
-use crate::{Follow, OpenWaterError};
+use crate::{Follow, GridId, OpenWaterError};
 
 /// Describes an [`OpenWater`](crate::OpenWater).
 #[derive(Debug, Clone)]
@@ -76,10 +76,15 @@ pub struct GridDesc {
     pub cells: [u32; 2],
     /// Cell size along x and z, metres.
     pub cell_size: [f32; 2],
-    /// Speed of the waves in deep water, metres per second. Over a bed they slow down as waves of that period do.
-    pub wave_speed: f32,
-    /// Interior scheme.
+    /// Which waves it carries: water waves, of which long ones are faster ([`Scheme::Dispersive`]), or those of the wave
+    /// equation, which all have one speed. Only the latter can be fed; [`Scheme::Spectral`] knows no land and needs a home on
+    /// the CPU.
     pub scheme: Scheme,
+    /// Speed of the wave equation's waves in deep water, metres per second. Over a bed they slow down as waves of that
+    /// period do. Water waves have no use for it.
+    pub wave_speed: f32,
+    /// Depth that water waves feel where there is no [`Land`](crate::Land), metres, 0.01 and more, infinite too.
+    pub depth: f32,
     /// What is at the edge of its window. One with [`Border::Periodic`] is for detail such as rain: it repeats over the whole
     /// plane, fades from 30 to 60 m from the eye ([`OpenWater::look`](crate::OpenWater::look)), or from the world's origin
     /// while nobody looks, and is no body's home. Needs a home on the CPU unless it absorbs by a matched layer.
@@ -88,6 +93,11 @@ pub struct GridDesc {
     pub damping: f32,
     /// Rain that falls into it, on the CPU only.
     pub rain: Option<Rain>,
+    /// The coarser grid that this one lies in, if any: fine cells where a bow wave is, coarse ones for the wake far behind.
+    /// Both carry the waves of the bodies in this one, and where this one is seen the coarser one is not. Waves that come in
+    /// from the coarser grid alone, such as those of a body outside this one, are not seen here. One that is made while
+    /// there are waves begins with those of the coarser grid if both are on the CPU.
+    pub within: Option<GridId>,
     /// Sides through which the ambient sea comes in; needs [`Land`](crate::Land), a fixed place on its depth map and a
     /// home on the CPU. Where such a grid is, the ambient sea leaves the waves to it that it can carry: of the longest
     /// cascades those whose shortest wave has six cells.
@@ -106,6 +116,7 @@ impl GridDesc {
             cells: self.cells,
             cell_size: self.cell_size,
             wave_speed: self.wave_speed,
+            depth: self.depth,
             scheme: self.scheme,
             border: self.border,
             damping: self.damping,
@@ -165,7 +176,9 @@ impl Preset {
             cells: [cells; 2],
             cell_size: [0.125; 2],
             wave_speed,
+            depth: f32::INFINITY,
             scheme,
+            within: None,
             border: Border::Absorbing { width },
             damping: 0.0,
             rain: None,

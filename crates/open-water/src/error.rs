@@ -53,6 +53,17 @@ pub enum OpenWaterError {
     /// A grid with `feed` that cannot be fed.
     #[error("a grid can be fed only {0}")]
     Feed(&'static str),
+    /// A grid whose scheme needs something else.
+    #[error("a grid with `Scheme::{scheme:?}` needs {needs}")]
+    Scheme {
+        /// The scheme.
+        scheme: wave_grid::Scheme,
+        /// What it needs.
+        needs: &'static str,
+    },
+    /// A grid that cannot lie in the one it names.
+    #[error("a grid can lie only {0}")]
+    Within(&'static str),
     /// A change of the sea where there is none.
     #[error("calm water has no sea that could change: begin with a light wind")]
     CalmSea,

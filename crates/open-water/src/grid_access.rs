@@ -13,9 +13,11 @@ impl OpenWater {
     /// Adds an interactive grid.
     ///
     /// # Errors
-    /// A value of the description is out of its range or its scheme unstable; too many grids; a GPU home without a GPU.
+    /// A value of the description is out of its range or its scheme unstable; too many grids; a GPU home without a GPU; a
+    /// grid to lie in that cannot hold it.
     pub fn add_grid(&mut self, desc: GridDesc) -> Result<GridId, OpenWaterError> {
         desc.check_home()?;
+        self.grids.check_within(&desc)?;
         let grid = desc.wave_grid(self.clock.dt());
         let sim = match desc.home {
             GridHome::Cpu => Sim::Cpu(Box::new(self.cpu_grid(&desc, grid)?)),
@@ -27,8 +29,11 @@ impl OpenWater {
             #[cfg(not(feature = "gpu"))]
             GridHome::Gpu => return Err(OpenWaterError::NoGpu),
         };
-        let fed = desc.feed.any();
+        let (fed, nested) = (desc.feed.any(), desc.within.is_some());
         let id = self.grids.insert(desc, sim)?;
+        if nested {
+            self.nest(id);
+        }
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
             gpu.resize_pool(self.grids.pool_cells());
@@ -37,6 +42,19 @@ impl OpenWater {
             self.rebuild_shore(self.shore.terrain.clone())?;
         }
         Ok(id)
+    }
+
+    /// Puts a new grid where it is to be, with the waves of the one that it lies in.
+    fn nest(&mut self, id: GridId) {
+        let (look, level) = (self.looking.as_ref(), self.shore.level);
+        if let Some(grid) = self.grids.get_mut(id) {
+            grid.set_nested(true);
+            if let Some(target) = grid.target(look, level, |body| self.bodies.place_of(body)) {
+                grid.center_on(target);
+            }
+        }
+        self.grids.inherit(id);
+        self.grids.cut_holes();
     }
 
     fn cpu_grid(&self, desc: &GridDesc, grid: wave_grid::GridDesc) -> Result<WaveGrid, OpenWaterError> {
@@ -69,6 +87,7 @@ impl OpenWater {
     /// Removes a grid and its waves at once.
     pub(crate) fn drop_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
         let removed = self.grids.take(id)?;
+        self.grids.cut_holes();
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
             if let Sim::Gpu(grid) = removed.sim {

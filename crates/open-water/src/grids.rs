@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DVec2, Vec2, Vec3};
 use ocean_spectrum::Ocean;
 use slotmap::SlotMap;
-use wave_grid::{Border, GridSample, Medium, Source, WaveGrid, Window};
+use wave_grid::{Border, GridSample, Hole, Medium, Source, WaveGrid, Window};
 
 use crate::follow::Look;
 use crate::land::Feeding;
@@ -23,6 +23,8 @@ const FADE: f32 = 1.0;
 
 pub(crate) struct Grid {
     pub(crate) id: GridId,
+    /// The coarsest of the grids that it lies in, or itself: what lies in one another holds the same waves.
+    pub(crate) root: GridId,
     pub(crate) desc: GridDesc,
     pub(crate) sim: Sim,
     /// Place in the pool of drawn heights, elements.
@@ -87,6 +89,32 @@ impl Grid {
             Sim::Cpu(grid) => grid.window(),
             #[cfg(feature = "gpu")]
             Sim::Gpu(grid) => grid.window(),
+        }
+    }
+
+    /// What it shows.
+    pub(crate) fn hole(&self) -> Hole {
+        match &self.sim {
+            Sim::Cpu(grid) => grid.hole(self.gain),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.hole(self.gain),
+        }
+    }
+
+    /// Whether it lies in a coarser one.
+    pub(crate) fn set_nested(&mut self, nested: bool) {
+        match &mut self.sim {
+            Sim::Cpu(grid) => grid.set_nested(nested),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.set_nested(nested),
+        }
+    }
+
+    pub(crate) fn set_holes(&mut self, holes: &[Hole]) {
+        match &mut self.sim {
+            Sim::Cpu(grid) => grid.set_holes(holes),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.set_holes(holes),
         }
     }
 
@@ -210,6 +238,8 @@ impl Grid {
 pub(crate) struct Grids {
     ids: SlotMap<GridId, ()>,
     list: Vec<Grid>,
+    /// A grid has holes.
+    pub(crate) holed: bool,
 }
 
 impl Grids {
@@ -241,8 +271,10 @@ impl Grids {
             return Err(OpenWaterError::InvalidValue { field: "grids", value, bound: "at most 32" });
         }
         let id = self.ids.insert(());
+        let root = desc.within.and_then(|within| self.get(within).ok()).map_or(id, |around| around.root);
         self.list.push(Grid {
             id,
+            root,
             desc,
             sim,
             base: 0,
@@ -264,6 +296,7 @@ impl Grids {
         let at = self.list.iter().position(|grid| grid.id == id).ok_or(OpenWaterError::UnknownGrid(id))?;
         let grid = self.list.remove(at);
         self.place();
+        self.adopt(&grid);
         Ok(grid)
     }
 

@@ -28,6 +28,7 @@ const MARGIN: f64 = 6.0;
 pub(crate) struct Homes {
     now: Option<GridId>,
     next: Option<GridId>,
+    /// By root: what lies in one another holds the same waves.
     shares: Vec<(GridId, f32)>,
 }
 
@@ -63,7 +64,7 @@ impl Homes {
     pub(crate) fn share(&self, grid: &Grid) -> f32 {
         let of =
             |id: GridId| self.shares.iter().find(|(other, _)| *other == id).map_or(0.0, |(_, share)| share.min(1.0));
-        grid.into.map_or(0.0, of).max(of(grid.id))
+        grid.into.map_or(0.0, of).max(of(grid.root))
     }
 
     /// Whether any grid holds waves of the body.
@@ -73,21 +74,22 @@ impl Homes {
 
     /// Decides for a tick of `dt` seconds.
     pub(crate) fn settle(&mut self, grids: &Grids, body: Settler, dt: f32, jumped: bool) {
+        let root = |id: GridId| grids.get(id).map_or(id, |grid| grid.root);
         self.shares.retain(|(id, _)| grids.get(*id).is_ok());
         if jumped {
             *self = Self::default();
         }
         // A home that fades into another hands over at once: that one holds the same waves.
         if let Some(next) = self.now.and_then(|id| grids.get(id).ok()?.into) {
-            self.shares.push((next, HELD));
             self.now = Some(next);
+            self.hold(root(next));
         }
         let now = self.now.and_then(|id| grids.get(id).ok()).filter(|grid| body.is_in(grid, 0.0, 0.0));
         let best = self.best(grids, body, now);
         self.next = best.map(|grid| grid.id);
         if let Some(grid) = best {
-            let at = self.shares.iter().position(|(id, _)| *id == grid.id).unwrap_or_else(|| {
-                self.shares.push((grid.id, 0.0));
+            let at = self.shares.iter().position(|(id, _)| *id == grid.root).unwrap_or_else(|| {
+                self.shares.push((grid.root, 0.0));
                 self.shares.len() - 1
             });
             let share = &mut self.shares[at].1;
@@ -102,14 +104,22 @@ impl Homes {
         } else {
             self.now = now.map(|grid| grid.id);
         }
-        for (id, share) in &mut self.shares {
-            if self.now == Some(*id) {
-                *share = HELD;
-            } else if self.next != Some(*id) {
-                *share -= dt / FALL;
-            }
+        let [now, next] = [self.now, self.next].map(|id| id.map(root));
+        for (_, share) in self.shares.iter_mut().filter(|(id, _)| now != Some(*id) && next != Some(*id)) {
+            *share -= dt / FALL;
         }
         self.shares.retain(|(_, share)| *share > 0.0);
+        if let Some(now) = now {
+            self.hold(now);
+        }
+    }
+
+    /// All waves of the grids of this root are the body's own.
+    fn hold(&mut self, root: GridId) {
+        match self.shares.iter_mut().find(|(id, _)| *id == root) {
+            Some((_, share)) => *share = HELD,
+            None => self.shares.push((root, HELD)),
+        }
     }
 
     /// The grid that should become the home instead of `now`, if any.

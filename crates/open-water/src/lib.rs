@@ -43,6 +43,7 @@ mod grids;
 mod handover;
 mod land;
 mod moorings;
+mod nested;
 mod plan;
 mod planner;
 #[cfg(feature = "rapier")]

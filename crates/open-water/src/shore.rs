@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 use ocean_spectrum::{AmplitudeMap, Ocean};
-use wave_grid::WaveGrid;
+use wave_grid::{Scheme, WaveGrid};
 
 use crate::cpu::surface::WaterSample;
 use crate::land::{Baked, Carrier, Feeding, Land, Terrain, bake};
@@ -162,6 +162,12 @@ impl GridDesc {
     pub(crate) fn check_home(&self) -> Result<(), OpenWaterError> {
         if self.feed.any() && self.home == GridHome::Gpu {
             return Err(OpenWaterError::Feed("when it is homed on the CPU: `GridHome::Cpu`"));
+        }
+        if self.feed.any() && !self.scheme.is_wave_equation() {
+            return Err(OpenWaterError::Feed("when it is of the wave equation: `Scheme::NinePoint` or `FivePoint`"));
+        }
+        if self.scheme == Scheme::Spectral && self.home == GridHome::Gpu {
+            return Err(OpenWaterError::Scheme { scheme: self.scheme, needs: "a home on the CPU: `GridHome::Cpu`" });
         }
         if self.feed.any() && self.border.width() == 0 {
             return Err(OpenWaterError::Feed("when its border absorbs"));

@@ -193,6 +193,7 @@ impl OpenWater {
         if let Some(gpu) = &mut self.gpu {
             gpu.remote.tick(&mut self.grids);
         }
+        self.grids.cut_holes();
         self.tick = tick.index;
         if let Some(ocean) = &mut self.ocean {
             ocean.set_time(tick.time());

@@ -15,6 +15,7 @@ use crate::dispersive::Fields;
 use crate::drift::Drift;
 use crate::feed::Feed;
 use crate::ground::Ground;
+use crate::hole::Holes;
 use crate::window::{Move, Place};
 use crate::{GridDesc, GridError, Scheme, Stepping, cpu, state::State};
 
@@ -57,6 +58,7 @@ pub struct WaveGrid {
     pub(crate) matched: bool,
     pub(crate) axes: [Axis; 2],
     fade: [Vec<f32>; 2],
+    pub(crate) holes: Holes,
     /// What is drawn as the tick before is what stands now: since the last tick a source was added or nothing moves.
     pub(crate) captured: bool,
     pub(crate) skipping: bool,
@@ -97,6 +99,7 @@ impl WaveGrid {
             matched: true,
             axes: [Axis::new(&profile, 0, nx), Axis::new(&profile, 1, nz)],
             fade: [vec![0.0; nx], vec![0.0; nz]],
+            holes: Holes::default(),
             captured: true,
             skipping: true,
             moving: false,
@@ -113,6 +116,9 @@ impl WaveGrid {
     pub(crate) fn update_fade(&mut self) {
         for (axis, fade) in self.fade.iter_mut().enumerate() {
             self.place.fade(axis, fade);
+        }
+        if !self.holes.is_empty() {
+            self.holes.place(&self.place.window);
         }
     }
 
@@ -210,7 +216,7 @@ impl WaveGrid {
         let repeats = self.desc.border == Border::Periodic;
         for (point, out) in points.iter().zip(out) {
             let at = self.place.cell_of(*point, self.origin);
-            *out = cpu::sample::sample(&self.state, &self.place.window, &self.fade, dt, at, repeats);
+            *out = cpu::sample::sample(&self.state, &self.place.window, (&self.fade, &self.holes), dt, at, repeats);
         }
     }
 
@@ -219,5 +225,6 @@ impl WaveGrid {
     pub fn draw(&self, alpha: f32, out: &mut [[f32; 2]]) {
         let alpha = if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) };
         cpu::draw::draw(&self.state, &self.tiles, self.before(), &self.fade, alpha, out);
+        self.holes.cut(out);
     }
 }

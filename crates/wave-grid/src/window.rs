@@ -78,6 +78,8 @@ pub(crate) struct Place {
     border: Border,
     /// Sides where the fade ends at the feed's contour.
     pub(crate) fed: Edges,
+    /// The fade ends where the border layer begins.
+    pub(crate) nested: bool,
 }
 
 impl Place {
@@ -87,7 +89,8 @@ impl Place {
         let window =
             Window { corner: desc.cells.map(|n| -(i64::from(n) / 2)), cells: desc.cells, cell_size: desc.cell_size };
         let interior = desc.cells.map(|n| i64::from(n) - rim);
-        let mut place = Self { window, lean: [0.0; 2], interior, border: desc.border, fed: Edges::default() };
+        let mut place =
+            Self { window, lean: [0.0; 2], interior, border: desc.border, fed: Edges::default(), nested: false };
         place.lean = place.stray(DVec2::ZERO);
         place
     }
@@ -166,7 +169,8 @@ impl Place {
     /// Middle of the fade (cells from the corner) and the distance from it where it reaches zero.
     pub(crate) fn fade_reach(&self, axis: usize) -> [f64; 2] {
         let half = f64::from(self.window.cells[axis]) / 2.0;
-        [half + self.lean[axis], half - MARGIN - DEAD_BAND]
+        let margin = if self.nested { MARGIN.max(self.fade_width() + 1.0) } else { MARGIN };
+        [half + self.lean[axis], half - margin - DEAD_BAND]
     }
 
     /// Cells over which the fade rises.

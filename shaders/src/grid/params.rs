@@ -2,6 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use super::MAX_HOLES;
 use crate::{param_layout, surface::MAX_GRIDS};
 
 /// A grid in one tick.
@@ -125,6 +126,22 @@ pub struct GridDispatch {
     pub work: u32,
 }
 
+/// Where a finer grid is seen instead.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct GridHole {
+    /// Where its fade reaches zero, cells from the corner.
+    pub low: [f32; 2],
+    /// The same on the high sides.
+    pub high: [f32; 2],
+    /// Cells over which it rises.
+    pub rise: [f32; 2],
+    /// Factor on it.
+    pub gain: f32,
+    /// Padding.
+    pub pad: f32,
+}
+
 /// A grid to be drawn.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
@@ -153,8 +170,12 @@ pub struct GridDraw {
     pub out: u32,
     /// First `f32` of its a in the medium, or [`super::NO_MEDIUM`].
     pub medium: u32,
+    /// How many of the holes count.
+    pub hole_count: u32,
     /// Padding.
-    pub pad: [u32; 3],
+    pub pad: [u32; 2],
+    /// What finer grids show.
+    pub holes: [GridHole; MAX_HOLES],
 }
 
 /// A grid to be sampled.
@@ -242,21 +263,26 @@ pub(super) const PARAMS: &[crate::ParamLayout] = &[
     param_layout!(GridCell { place, a, r, pad }),
 ];
 
-pub(super) const DRAW_PARAMS: &[crate::ParamLayout] = &[param_layout!(GridDraw {
-    corner,
-    cells,
-    torus,
-    middle,
-    outer,
-    width,
-    alpha,
-    now,
-    previous,
-    foam,
-    out,
-    medium,
-    pad
-})];
+pub(super) const DRAW_PARAMS: &[crate::ParamLayout] = &[
+    param_layout!(GridDraw {
+        corner,
+        cells,
+        torus,
+        middle,
+        outer,
+        width,
+        alpha,
+        now,
+        previous,
+        foam,
+        out,
+        medium,
+        hole_count,
+        pad,
+        holes
+    }),
+    param_layout!(GridHole { low, high, rise, gain, pad }),
+];
 
 pub(super) const QUERY_PARAMS: &[crate::ParamLayout] = &[
     param_layout!(GridQuery { corner, cells, torus, middle, outer, scale, offset, width, rate, now, old, medium, pad }),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DVec2, Vec2};
 use open_water_shaders::pipeline::Readback;
 use wave_grid::gpu::{GpuGridId, GpuGrids};
-use wave_grid::{GridSample, Medium, Source, Window};
+use wave_grid::{GridSample, Hole, Medium, Source, Window};
 
 use super::mirror::Mirror;
 use crate::OpenWaterError;
@@ -31,6 +31,10 @@ pub(crate) struct RemoteGrid {
     window: Window,
     awake: bool,
     target: Option<DVec2>,
+    nested: bool,
+    /// What it shows with a gain of 1, as of the last tick.
+    hole: Hole,
+    holes: Vec<Hole>,
     sources: Vec<Source>,
     ring: Readback<Stamp>,
     mirror: Mirror,
@@ -51,6 +55,19 @@ impl RemoteGrid {
 
     pub(crate) fn add(&mut self, source: Source) {
         self.sources.push(source);
+    }
+
+    pub(crate) fn hole(&self, gain: f32) -> Hole {
+        self.hole.with_gain(gain)
+    }
+
+    pub(crate) fn set_holes(&mut self, holes: &[Hole]) {
+        self.holes.clear();
+        self.holes.extend_from_slice(holes);
+    }
+
+    pub(crate) fn set_nested(&mut self, nested: bool) {
+        self.nested = nested;
     }
 
     pub(crate) fn is_awake(&self) -> bool {
@@ -78,6 +95,9 @@ impl RemoteGrids {
             window,
             awake: false,
             target: None,
+            nested: false,
+            hole: self.grids.hole(id, 1.0),
+            holes: Vec::new(),
             sources: Vec::new(),
             ring: Readback::new(&self.device, "grid readback", bytes, SLOTS),
             mirror: Mirror::new(desc.cells, desc.cell_size),
@@ -105,7 +125,9 @@ impl RemoteGrids {
             if let Some(target) = remote.target.take() {
                 self.grids.center_on(remote.id, target);
             }
+            self.grids.set_nested(remote.id, remote.nested);
             remote.window = self.grids.window(remote.id);
+            remote.hole = self.grids.hole(remote.id, 1.0);
             remote.awake = !self.grids.is_asleep(remote.id);
             if let Some(reading) = remote.ring.poll(&self.device) {
                 remote.mirror.take(reading.stamp.tick, reading.stamp.corner, reading.bytes);
@@ -139,6 +161,7 @@ impl RemoteGrids {
                 && remote.awake
             {
                 draws.push((remote.id, grid.base));
+                self.grids.set_holes(remote.id, &remote.holes);
             }
         }
         self.grids.encode_draw(&self.device, queue, encoder, pool, &draws, plan.alpha);

@@ -3,14 +3,14 @@
 use glam::{DVec2, Vec2};
 use open_water_shaders::cubic::{slopes, weights};
 
-use crate::{GridSample, Window, state::State};
+use crate::{GridSample, Window, hole::Holes, state::State};
 
 /// The state at the end of the last tick at a place in cells from the corner; zero outside and where it is not finite.
 /// Beyond the last column or row a window that `repeats` goes on with its third.
 pub(crate) fn sample(
     state: &State,
     window: &Window,
-    fade: &[Vec<f32>; 2],
+    (fade, holes): (&[Vec<f32>; 2], &Holes),
     dt: f32,
     place: DVec2,
     repeats: bool,
@@ -40,7 +40,12 @@ pub(crate) fn sample(
             sums([&fade, &z, &old], wx, dx)
         } else {
             let (cells, columns) = (from + first_x..from + first_x + 4, first_x..first_x + 4);
-            sums([&fade[0][columns], &state.z[cells.clone()], &state.old[cells]], wx, dx)
+            let mut seen = [0.0f32; 4];
+            seen.copy_from_slice(&fade[0][columns]);
+            if !holes.is_empty() {
+                seen.iter_mut().zip(holes.left(row, first_x)).for_each(|(seen, left)| *seen *= left);
+            }
+            sums([&seen, &state.z[cells.clone()], &state.old[cells]], wx, dx)
         };
         sum[0] += f * wz[j] * value;
         sum[1] += f * wz[j] * slope;

@@ -94,7 +94,8 @@ impl GpuGrids {
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grid draw"), ..Default::default() });
         let felt = draws.iter().any(|draw| draw.medium != shader::NO_MEDIUM);
-        pass.set_pipeline(&self.passes.draw[usize::from(felt)]);
+        let holes = draws.iter().any(|draw| draw.hole_count > 0);
+        pass.set_pipeline(&self.passes.draw[usize::from(felt)][usize::from(holes)]);
         pass.set_bind_group(0, draw_group, &[]);
         pass.dispatch_workgroups(x.div_ceil(DRAW_THREADS), y, draws.len() as u32);
     }

@@ -10,6 +10,7 @@ use crate::border::Profile;
 use crate::cpu::foam::FoamLaw;
 use crate::dispersive::Table;
 use crate::ground::Cells;
+use crate::hole::Hole;
 use crate::medium::{CellLaw, SharedMedium};
 use crate::source::footprint::Footprint;
 use crate::window::Place;
@@ -49,6 +50,8 @@ pub(super) struct Grid {
     pub(super) land: Option<Land>,
     /// What it has if its scheme is the dispersive one.
     pub(super) water: Option<Water>,
+    /// Where finer grids are seen instead.
+    pub(super) holes: Vec<Hole>,
 }
 
 impl Grid {
@@ -84,6 +87,11 @@ impl Grid {
     pub(super) fn drawn(&self, alpha: f32, out: u32) -> shader::GridDraw {
         let [x, z] = [self.place.fade_reach(0), self.place.fade_reach(1)];
         let array = |k: u32| 4 * (self.base + k * self.stride());
+        let mut holes = [shader::GridHole::default(); shader::MAX_HOLES];
+        for (hole, given) in holes.iter_mut().zip(&self.holes) {
+            let ([low, high, rise], gain) = given.in_cells(&self.place.window);
+            *hole = shader::GridHole { low, high, rise, gain, pad: 0.0 };
+        }
         shader::GridDraw {
             corner: self.torus_corner(),
             cells: self.desc.cells,
@@ -98,7 +106,9 @@ impl Grid {
             foam: array(3),
             out,
             medium: self.cells().map_or(shader::NO_MEDIUM, |_| 2 * self.base),
-            pad: [0; 3],
+            hole_count: self.holes.len() as u32,
+            pad: [0; 2],
+            holes,
         }
     }
 

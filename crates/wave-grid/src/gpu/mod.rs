@@ -12,6 +12,7 @@ mod buffers;
 mod encode;
 mod flight;
 mod grid;
+mod holes;
 mod land;
 mod pack;
 mod pass;
@@ -144,6 +145,7 @@ impl GpuGrids {
         let mut grid = Grid {
             land: None,
             water,
+            holes: Vec::new(),
             place: Place::new(&desc),
             law: FoamLaw::new(&desc, &stepping),
             moving: false,

@@ -24,8 +24,8 @@ pub(super) struct Passes {
     /// Without and with cells of the layer, each without and with the last sub-step's work, each of plain tiles and of
     /// mixed ones.
     step: [[[wgpu::ComputePipeline; 2]; 2]; 2],
-    /// Without and with grids that have walls.
-    pub(super) draw: [wgpu::ComputePipeline; 2],
+    /// Without and with grids that have walls, each without and with ones that have holes.
+    pub(super) draw: [[wgpu::ComputePipeline; 2]; 2],
     shape: StepShape,
     /// Once there has been a dispersive grid.
     pub(super) water: Option<WaterPasses>,
@@ -68,7 +68,10 @@ impl Passes {
             medium: pipeline(&shader::MEDIUM, &listed, &[]),
             prepare: BOTH.map(|moved| BOTH.map(|medium| prepare(moved, medium))),
             step: BOTH.map(|layer| BOTH.map(|last| BOTH.map(|mixed| step(layer, last, mixed)))),
-            draw: BOTH.map(|medium| pipeline(&shader::DRAW, &[&draw_layout], &[("MEDIUM", medium)])),
+            draw: BOTH.map(|medium| {
+                let draw = |holes| pipeline(&shader::DRAW, &[&draw_layout], &[("MEDIUM", medium), ("HOLES", holes)]);
+                BOTH.map(draw)
+            }),
             state_layout,
             draw_layout,
             schedule_layout,
