@@ -23,6 +23,7 @@ mod grid_step;
 mod grid_tiles;
 mod grid_wake;
 mod harbour;
+mod nested;
 mod ocean_buoy;
 mod ocean_fft;
 mod ocean_gpu;
@@ -81,6 +82,7 @@ pub const CASES: &[Case] = &[
     grid_sources::TRAIN,
     grid_sources::HULLS,
     grid_current::CURRENT,
+    nested::NESTED,
     grid_medium::PML,
     grid_medium::BOUND,
     grid_medium::COST,
