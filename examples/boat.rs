@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 use std::process::ExitCode;
 
 use glam::{Affine3A, Quat, Vec2, Vec3};
-use open_water::{BodyDesc, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, OpenWater, Pose, Tick};
+use open_water::{BodyDesc, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, OpenWater, Pose, Scheme, Tick};
 use open_water_examples::{
     Dice, Flotsam, Helm, Launch, Mark, NoMore, Options, Scene, SceneError, Setup, Subject, boat_mesh, run, run_up,
 };
@@ -99,7 +99,15 @@ impl Scene for Boat {
         };
         let mut states = BodyStates::default();
         states.insert(boat, start);
-        let wake = water.add_grid(GridDesc { follow: Follow::Body(boat), ..options.preset().grid() })?;
+        let grid = GridDesc { follow: Follow::Body(boat), ..options.preset().grid() };
+        let wake = if grid.scheme == Scheme::Dispersive {
+            // Fine cells around the boat, and twice as large ones for three times as far.
+            let far = GridDesc { cell_size: grid.cell_size.map(|h| 2.0 * h), ..grid.clone() };
+            let (cells, within) = (grid.cells.map(|n| n * 2 / 3), Some(water.add_grid(far)?));
+            water.add_grid(GridDesc { cells, within, ..grid })?
+        } else {
+            water.add_grid(grid)?
+        };
         let mut scene = Self {
             water,
             states,

@@ -7,8 +7,8 @@ use std::process::ExitCode;
 
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyState, BodyStates, Border, Controls, Follow, GridDesc, Hull, Look, OpenWater, Pose, Rain, Tick, Wake,
-    WakesDesc,
+    BodyDesc, BodyState, BodyStates, Border, Controls, Follow, GridDesc, Hull, Look, OpenWater, Pose, Rain, Scheme,
+    Tick, Wake, WakesDesc,
 };
 use open_water_examples::{
     Course, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, run, run_up,
@@ -47,6 +47,7 @@ fn shower(rate: u32, seed: u64) -> GridDesc {
         follow: Follow::Point,
         cells: [194; 2],
         cell_size: [0.03; 2],
+        scheme: Scheme::NinePoint,
         wave_speed: 0.6,
         border: Border::Periodic,
         damping: 1.0,
@@ -114,11 +115,11 @@ impl Scene for Fleet {
         let desc = options.preset().body(BodyDesc::boat(&hull, 0.24 * hull.volume() * 1025.0, SPEED));
         let waterline = hull.waterline(desc.displaced_volume()).level;
         let preset = options.preset().grid();
-        // Waves that the boats outrun, on fewer and larger cells than the preset's.
+        // Fewer and smaller cells than the preset's.
         let cells = preset.cells.map(|n| n * 3 / 4);
         let grid = GridDesc {
             cells,
-            cell_size: preset.cell_size.map(|h| 1.2 * h),
+            cell_size: preset.cell_size.map(|h| 0.8 * h),
             wave_speed: 0.8 * preset.wave_speed,
             ..preset
         };

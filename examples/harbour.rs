@@ -143,7 +143,7 @@ impl Scene for Harbour {
         let mut boats = Vec::new();
         for wake in [true, true, false] {
             let body = water.add_body(desc.clone())?;
-            // Slower waves than the preset's: the boats go at its speed, and would push one lump of water ahead.
+            // Smaller cells than the preset's, as there is little room; of the paper's one speed of all waves less, as the boats go at it.
             let preset = options.preset().grid();
             let grid = GridDesc {
                 follow: Follow::Body(body),

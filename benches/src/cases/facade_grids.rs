@@ -3,7 +3,7 @@
 use floating_body::{BodyDesc, Controls, Hull, Radiation};
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
-    BodyId, BodyState, BodyStates, Follow, GridDesc, Look, OpenWater, OpenWaterDesc, Preset, Wake, WakesDesc,
+    BodyId, BodyState, BodyStates, Follow, GridDesc, Look, OpenWater, OpenWaterDesc, Preset, Scheme, Wake, WakesDesc,
     WaterSample, WaveGrid,
 };
 use wave_grid::{GridSample, Source};
@@ -79,8 +79,8 @@ impl Crossing {
         let mut water = calm()?;
         for &(x, cells) in grids {
             let follow = Follow::Fixed(DVec2::new(x, 0.0));
-            let cells = [cells, 192];
-            water.add_grid(GridDesc { follow, cells, cell_size: [0.25; 2], ..GridDesc::default() })?;
+            let (cells, scheme) = ([cells, 192], Scheme::NinePoint);
+            water.add_grid(GridDesc { follow, cells, cell_size: [0.25; 2], scheme, ..GridDesc::default() })?;
         }
         let boat = water.add_body(boat(Radiation::Grid)?)?;
         water.set_controls(boat, Controls { throttle: 0.8, ..Controls::default() })?;
@@ -212,7 +212,8 @@ impl Fleet {
 }
 
 fn wakes(context: &Context) -> Result<Vec<Row>, CaseError> {
-    let grid = GridDesc { cells: [256; 2], cell_size: [0.15; 2], wave_speed: 6.2, ..GridDesc::default() };
+    let wave = GridDesc { scheme: Scheme::NinePoint, wave_speed: 6.2, ..GridDesc::default() };
+    let grid = GridDesc { cells: [256; 2], cell_size: [0.15; 2], ..wave };
     let near = 256 * 256;
     let mut rows = Vec::new();
     for count in [8u32, 32] {

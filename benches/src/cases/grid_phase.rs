@@ -4,8 +4,7 @@
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::hint::black_box;
 
-use open_water::Preset;
-use wave_grid::{GridDesc, Scheme, WaveGrid};
+use wave_grid::{GridDesc, WaveGrid};
 
 use crate::{
     evidence::{Axis, Case, CaseError, Context, Plot, Row, Timing, measure_together},
@@ -175,27 +174,19 @@ fn cell_step_ns(context: &Context, descs: [GridDesc; 2]) -> Result<[Timing; 2], 
     Ok(timings.map(|timing| timing.per((TIMED * TIMED) as f64)))
 }
 
-/// The bounds, at every `a` that presets use, and what the crate's default description has.
+/// The bounds, at the `a` of the scenes' grids, and what the crate's default description has.
 fn presets() -> Result<Vec<Row>, CaseError> {
     let mut rows = Vec::new();
-    let mut seen: Vec<f64> = Vec::new();
-    for (name, preset) in [("Low", Preset::Low), ("Medium", Preset::Medium), ("High", Preset::High)] {
-        let mut grid = one_substep(fixtures::preset(preset), SIDE)?;
-        let a = grid.stepping().a[0];
-        if grid.desc().scheme != Scheme::NinePoint || seen.iter().any(|other| (a - other).abs() < 1e-6) {
-            continue;
-        }
-        seen.push(a);
-        let found = of_grid(&mut grid, 8.0)?;
-        let row = |what: &str| {
-            Row::new("phase_9pt", format!("9-point, {what}"))
-                .param("preset", name)
-                .param("a", (a * 1e4).round() / 1e4)
-                .param("cells_per_wavelength", 8.0)
-        };
-        rows.push(row("bound").error(found.worst, "%", "speed c of the wave equation").bound(0.85));
-        rows.push(row("anisotropy").error(found.range, "%", "itself over direction, greatest less least").bound(0.05));
-    }
+    let mut grid = one_substep(fixtures::grid(), SIDE)?;
+    let a = grid.stepping().a[0];
+    let found = of_grid(&mut grid, 8.0)?;
+    let row = |what: &str| {
+        Row::new("phase_9pt", format!("9-point, {what}"))
+            .param("a", (a * 1e4).round() / 1e4)
+            .param("cells_per_wavelength", 8.0)
+    };
+    rows.push(row("bound").error(found.worst, "%", "speed c of the wave equation").bound(0.85));
+    rows.push(row("anisotropy").error(found.range, "%", "itself over direction, greatest less least").bound(0.05));
     let mut grid = one_substep(GridDesc::default(), SIDE)?;
     let found = of_grid(&mut grid, 8.0)?;
     rows.push(

@@ -4,7 +4,7 @@ use glam::{DVec2, Vec2};
 use ocean_spectrum::SeaState;
 use open_water::{
     BodyStates, CascadeDesc, DepthMap, Edges, Follow, GridDesc, Land, Obstacle, ObstacleKind, OpenWater, OpenWaterDesc,
-    WaterSample,
+    Scheme, WaterSample,
 };
 
 use super::facade::{draw, probe};
@@ -68,6 +68,7 @@ fn grid(feed: Edges) -> GridDesc {
         follow: Follow::Fixed(DVec2::splat(f64::from(SIDE) / 2.0)),
         cells: [CELLS; 2],
         cell_size: [CELL; 2],
+        scheme: Scheme::NinePoint,
         wave_speed: SPEED,
         feed,
         ..GridDesc::default()

@@ -159,22 +159,23 @@ impl Preset {
         }
     }
 
-    /// The grid of this quality that follows a boat. Its wave speed is the phase speed of waves about 25 m long; cell
-    /// size and speed keep the scheme near its stability bound, where its phase error is least.
+    /// The grid of this quality that follows a boat: water waves of 6 to 128 cells. [`Self::Paper`]'s have one speed, the
+    /// phase speed of waves about 17 m long; cell size and speed keep its scheme near the stability bound, where its phase
+    /// error is least.
     pub fn grid(self) -> GridDesc {
-        let (cells, scheme, width) = match self {
-            Self::Low => (256, Scheme::NinePoint, 8),
-            Self::Medium => (512, Scheme::NinePoint, 12),
-            Self::High => (768, Scheme::NinePoint, 16),
-            Self::Paper => (512, Scheme::FivePoint, 12),
+        let (cells, cell, scheme, width) = match self {
+            Self::Low => (192, 0.5, Scheme::Dispersive, 12),
+            Self::Medium => (384, 0.25, Scheme::Dispersive, 16),
+            Self::High => (512, 0.25, Scheme::Dispersive, 20),
+            Self::Paper => (512, 0.125, Scheme::FivePoint, 12),
         };
-        // 5-point: a = (5.2/60/.125)^2 = .481 <= .49; 9-point: a = (6.2/60/.125)^2 = .683 <= .7.
+        // 5-point: a = (5.2/60/.125)^2 = .481 <= .49.
         let wave_speed = if scheme == Scheme::FivePoint { 5.2 } else { 6.2 };
         GridDesc {
             follow: Follow::Fixed(DVec2::ZERO),
             home: GridHome::Cpu,
             cells: [cells; 2],
-            cell_size: [0.125; 2],
+            cell_size: [cell; 2],
             wave_speed,
             depth: f32::INFINITY,
             scheme,

@@ -3,7 +3,7 @@
 use glam::{DVec2, Quat, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, OpenWater, OpenWaterDesc, Preset,
-    Radiation, WaterSample,
+    Radiation, Scheme, WaterSample,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -18,7 +18,8 @@ fn calm() -> OpenWater {
 /// Cells of .25 m around (x, 0).
 fn grid(x: f64, cells: [u32; 2]) -> GridDesc {
     let follow = Follow::Fixed(DVec2::new(x, 0.0));
-    GridDesc { follow, cells, cell_size: [0.25; 2], wave_speed: 6.2, ..GridDesc::default() }
+    let scheme = Scheme::NinePoint;
+    GridDesc { follow, cells, cell_size: [0.25; 2], scheme, wave_speed: 6.2, ..GridDesc::default() }
 }
 
 fn tick(water: &mut OpenWater, store: &mut BodyStates) {

@@ -3,7 +3,7 @@
 use glam::{DVec2, Quat, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, BodyStore, Border, Controls, Follow, GridDesc, Hull, OpenWater,
-    OpenWaterDesc, OpenWaterError, Preset, Radiation, Tick, WaterSample,
+    OpenWaterDesc, OpenWaterError, Preset, Radiation, Scheme, Tick, WaterSample,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -174,8 +174,11 @@ fn wrong_descriptions_name_field_value_and_bound() {
     let error = text(OpenWaterDesc { max_ticks_per_frame: 0, ..small_sea() });
     assert!(error.contains("max_ticks_per_frame is 0"), "{error}");
     let mut water = OpenWater::headless(calm()).unwrap();
-    let error = water.add_grid(GridDesc { wave_speed: 500.0, ..small_grid() }).unwrap_err().to_string();
-    assert!(error.contains("500") && error.contains("0.125"), "{error}");
+    let error = water
+        .add_grid(GridDesc { scheme: Scheme::NinePoint, wave_speed: 500.0, ..small_grid() })
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("500") && error.contains("0.25"), "{error}");
     let error = water.add_grid(GridDesc { home: open_water::GridHome::Gpu, ..small_grid() }).unwrap_err();
     assert!(matches!(error, OpenWaterError::NoGpu), "{error}");
 }

@@ -3,7 +3,7 @@
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyState, BodyStates, CascadeDesc, Damping, DepthMap, Edges, Follow, GridDesc, GridHome, GridId, Hull,
-    Land, Obstacle, ObstacleKind, OpenWater, OpenWaterDesc, OpenWaterError, SeaState, Shelter, WaterSample,
+    Land, Obstacle, ObstacleKind, OpenWater, OpenWaterDesc, OpenWaterError, Scheme, SeaState, Shelter, WaterSample,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -55,6 +55,7 @@ fn basin() -> GridDesc {
         follow: Follow::Fixed(DVec2::new(192.0, 192.0)),
         cells: [176, 176],
         cell_size: [2.0; 2],
+        scheme: Scheme::NinePoint,
         wave_speed: 9.37,
         feed: Edges { low_x: true, ..Edges::default() },
         ..GridDesc::default()
@@ -171,6 +172,7 @@ fn a_moving_grid_sees_the_same_walls() {
         follow: Follow::Fixed(DVec2::new(x, 80.0)),
         cells: [160; 2],
         cell_size: [0.5; 2],
+        scheme: Scheme::NinePoint,
         wave_speed: 6.2,
         ..GridDesc::default()
     };

@@ -74,11 +74,13 @@ fn a_boat_in_a_fine_grid_in_a_coarse_one_draws_one_wake() {
         let (place, truth) = (both.ticks(420), one.ticks(420));
         assert!(place.distance(truth) < 0.02 && place.x > 20.0, "{place} {truth}");
         assert_eq!(both.water.home(both.boat).unwrap(), Some(fine));
-        let points: Vec<Vec2> = (0..80 * 80)
-            .map(|i| Vec2::new(place.x - 38.0 + (i % 80) as f32 * 0.95, -38.0 + (i / 80) as f32 * 0.95))
-            .collect();
-        let differs = error(&both.heights(&points), &one.heights(&points));
-        assert!(differs < 0.1, "{radiation:?}: {differs}");
+        // Where the fine grid alone is seen, and everywhere: there the coarse one's errors of short waves come in.
+        let [near, all] = [13.0, 38.0].map(|reach: f32| {
+            let at = |i: i32| (i as f32 / 40.0 - 1.0) * reach;
+            let points: Vec<Vec2> = (0..81 * 81).map(|i| Vec2::new(place.x + at(i % 81), at(i / 81))).collect();
+            error(&both.heights(&points), &one.heights(&points))
+        });
+        assert!(near < 0.03 && all < 0.2, "{radiation:?}: {near} {all}");
     }
 }
 

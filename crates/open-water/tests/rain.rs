@@ -3,7 +3,7 @@
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyStates, Border, Follow, GridDesc, GridHome, Hull, Look, OpenWater, OpenWaterDesc, OpenWaterError,
-    Preset, Rain, WaterSample,
+    Preset, Rain, Scheme, WaterSample,
 };
 
 const RAIN: Rain = Rain { rate: 40.0, drop_radius: 0.002, seed: 3 };
@@ -13,6 +13,7 @@ fn shower() -> GridDesc {
         follow: Follow::Fixed(DVec2::new(40.0, -30.0)),
         cells: [98; 2],
         cell_size: [0.03; 2],
+        scheme: Scheme::NinePoint,
         wave_speed: 0.6,
         border: Border::Periodic,
         damping: 1.0,

@@ -3,7 +3,7 @@
 use glam::{DVec2, Vec2};
 use open_water::{
     BodyStates, CascadeDesc, DepthMap, Edges, Follow, GridDesc, GridId, Land, Obstacle, ObstacleKind, OpenWater,
-    OpenWaterDesc, OpenWaterError, SeaState, WaterSample,
+    OpenWaterDesc, OpenWaterError, Scheme, SeaState, WaterSample,
 };
 
 /// The longest tick, so that what is amiss in one shows.
@@ -41,6 +41,7 @@ fn harbour(sea: SeaState) -> (OpenWater, GridId) {
         follow: Follow::Fixed(DVec2::new(150.0, 190.0)),
         cells: [120, 120],
         cell_size: [2.0; 2],
+        scheme: Scheme::NinePoint,
         wave_speed: 9.4,
         feed: Edges { low_x: true, ..Edges::default() },
         ..GridDesc::default()

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, Look, OpenWater, OpenWaterDesc, Preset,
-    Wake, WakesDesc, WaterSample,
+    Scheme, Wake, WakesDesc, WaterSample,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -17,7 +17,8 @@ struct Fleet {
 
 /// Wakes of 160 x 160 cells of .25 m, as many as `grids` hold.
 fn wakes(grids: u64) -> WakesDesc {
-    let grid = GridDesc { cells: [160; 2], cell_size: [0.25; 2], wave_speed: 6.2, ..GridDesc::default() };
+    let wave = GridDesc { scheme: Scheme::NinePoint, wave_speed: 6.2, ..GridDesc::default() };
+    let grid = GridDesc { cells: [160; 2], cell_size: [0.25; 2], ..wave };
     WakesDesc { grid, cells: grids * CELLS, fine: 100.0, ..WakesDesc::default() }
 }
 

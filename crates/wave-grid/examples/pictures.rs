@@ -3,7 +3,7 @@
 use std::{error::Error, fs, path::Path, sync::Arc};
 
 use glam::{DVec2, Vec2};
-use wave_grid::{CellKind, GridDesc, Medium, MediumCell, Rain, Source, WaveGrid, WaveMaker};
+use wave_grid::{Border, CellKind, GridDesc, Medium, MediumCell, Rain, Scheme, Source, WaveGrid, WaveMaker};
 
 /// 64 x 64 m, at 60 ticks a second near the scheme's bound.
 const WATER: f32 = 12.4;
@@ -17,6 +17,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     boat(&folder.join("boat.ppm"))?;
     coast(Coast::Gap, &folder.join("gap.ppm"))?;
     coast(Coast::Shoal, &folder.join("shoal.ppm"))?;
+    wake(Reach::Quay, &folder.join("wake-quay.ppm"))?;
+    wake(Reach::Bank, &folder.join("wake-bank.ppm"))?;
     rain(&folder.join("rain.ppm"))
 }
 
@@ -89,6 +91,51 @@ fn coast(coast: Coast, path: &Path) -> Result<(), Box<dyn Error>> {
         grid.tick();
     }
     picture(&grid, |place| coast.is_wall(place), 0.12, path)
+}
+
+/// What a boat runs along.
+#[derive(Clone, Copy, PartialEq)]
+enum Reach {
+    /// A wall.
+    Quay,
+    /// A bank that rises from 10 m to .4 m below the surface.
+    Bank,
+}
+
+impl Reach {
+    fn is_wall(self, place: DVec2) -> bool {
+        self == Reach::Quay && place.y < -28.0
+    }
+}
+
+impl Medium for Reach {
+    fn at(&self, place: DVec2, _: f32) -> MediumCell {
+        if *self == Reach::Quay {
+            let kind = if self.is_wall(place) { CellKind::Wall } else { CellKind::Open };
+            return MediumCell { kind, ..MediumCell::default() };
+        }
+        let top = (-place.distance_squared(DVec2::new(-14.0, -20.0)) / 150.0).exp() as f32;
+        MediumCell { depth: 10.0 - 9.6 * top, ..MediumCell::default() }
+    }
+
+    fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {
+        false
+    }
+}
+
+/// Water waves on 128 x 128 m behind a boat at 4.5 m/s.
+fn wake(reach: Reach, path: &Path) -> Result<(), Box<dyn Error>> {
+    let border = Border::Absorbing { width: 16 };
+    let mut grid = WaveGrid::new(GridDesc { scheme: Scheme::Dispersive, border, ..GridDesc::default() })?;
+    grid.set_medium(Some(Arc::new(reach)));
+    let place = |tick: u32| Vec2::new(-64.0 + 4.5 / 60.0 * tick as f32, -4.0);
+    for tick in 0..1480 {
+        for (center, volume) in [(place(tick + 1), 1.0), (place(tick), -1.0)] {
+            grid.add(Source::Displacement { center, radius: 1.0, volume });
+        }
+        grid.tick();
+    }
+    picture(&grid, |place| reach.is_wall(place), 0.04, path)
 }
 
 /// 5 x 5 m in a shower.

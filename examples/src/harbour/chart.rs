@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use glam::{DVec2, Vec2};
-use open_water::{Damping, DepthMap, DepthScale, Edges, Follow, GridDesc, Land, Obstacle, ObstacleKind, Preset};
+use open_water::{
+    Damping, DepthMap, DepthScale, Edges, Follow, GridDesc, Land, Obstacle, ObstacleKind, Preset, Scheme,
+};
 
 use super::ground::Extent;
 use super::plan::{
@@ -62,6 +64,7 @@ pub fn basin(preset: Preset, period: f32) -> GridDesc {
         follow: Follow::Fixed(center),
         cells,
         cell_size: [cell_size; 2],
+        scheme: Scheme::NinePoint,
         wave_speed: (1.56 * period).clamp(6.0, 16.0),
         feed: Edges { low_x: true, low_z: true, high_z: true, ..Edges::default() },
         ..preset.grid()

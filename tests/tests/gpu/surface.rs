@@ -6,7 +6,7 @@ mod land;
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Border, Consumers, Controls, Follow, FramePlan, GridDesc, GridHome, Hull,
-    OpenWater, OpenWaterDesc, Preset, Reason, SkippedWork, View, WaterSample, Work,
+    OpenWater, OpenWaterDesc, Preset, Reason, Scheme, SkippedWork, View, WaterSample, Work,
 };
 use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_layout};
 use open_water_shaders::surface;
@@ -228,8 +228,8 @@ fn a_grid_homed_on_the_gpu_comes_back_with_its_age() {
         let hull = Hull::cuboid(Vec3::splat(1.0)).unwrap();
         let dropped = scene.water.add_body(BodyDesc::from_hull(&hull, 500.0)).unwrap();
         let follow = Follow::Body(dropped);
-        let desc =
-            GridDesc { follow, home, cells: [96; 2], border: Border::Absorbing { width: 8 }, ..GridDesc::default() };
+        let (border, scheme) = (Border::Absorbing { width: 8 }, Scheme::NinePoint);
+        let desc = GridDesc { follow, home, cells: [96; 2], border, scheme, ..GridDesc::default() };
         let grid = scene.water.add_grid(desc).unwrap();
         scene.store.insert(dropped, BodyState::at_rest(Vec3::new(0.0, 0.8, 0.0)));
         for _ in 0..40 {

@@ -3,7 +3,7 @@
 use floating_body::{Body, GRAVITY};
 use glam::{DVec2, Vec2, Vec3};
 
-use super::{Kept, Wake, Wakes, WakesDesc, cells_of};
+use super::{Kept, LONGEST, Wake, Wakes, WakesDesc, cells_of};
 use crate::grids::{MAX_GRIDS, Sim};
 use crate::store::{BodyId, GridId};
 use crate::water::OpenWater;
@@ -19,8 +19,10 @@ const FAST: f32 = 0.4;
 /// Seconds over which a body's way is averaged: bobbing is none.
 const AVERAGE: f32 = 2.0;
 /// A body that outruns its waves has them behind it: from the first of these shares of their speed on its grid trails, from
-/// the second on by this share of the window.
+/// the second on by this share of the window. So does one that makes water waves, of which those that stay with it carry their
+/// energy at half its speed, from these Froude numbers on.
 const SLOWER: [f32; 2] = [0.7, 1.2];
+const WAKING: [f32; 2] = [0.1, 0.25];
 const TRAIL: f32 = 0.2;
 /// Grids made in one decision: each takes a moment.
 const AT_ONCE: usize = 4;
@@ -30,8 +32,14 @@ struct Asking {
     body: BodyId,
     weight: f32,
     distance: f32,
+    /// How often its cells are doubled for the hull's sake.
+    size: u32,
     still: bool,
     place: Vec3,
+}
+
+fn froude(way: Vec2, length: f32) -> f32 {
+    way.length() / (GRAVITY * length).sqrt()
 }
 
 fn length(body: &Body) -> f32 {
@@ -40,6 +48,21 @@ fn length(body: &Body) -> f32 {
 }
 
 impl OpenWater {
+    /// Counts the bodies whose hulls are too long for the cells that they make waves in.
+    pub(crate) fn note_hulls(&mut self) {
+        if !self.tick.is_multiple_of(BEAT) {
+            return;
+        }
+        let too_long = |(id, body): &(BodyId, &Body)| {
+            let home = self.bodies.home(*id).ok().flatten().and_then(|home| self.grids.get(home).ok());
+            home.is_some_and(|grid| {
+                let [x, z] = grid.desc.cell_size;
+                !grid.desc.scheme.is_wave_equation() && length(body) > LONGEST * x.max(z)
+            })
+        };
+        self.reports.long_hulls = self.bodies.active().filter(too_long).count() as u32;
+    }
+
     /// Decides who has a grid in the tick to come.
     pub(crate) fn keep_wakes(&mut self, dt: f32) {
         let mut wakes = std::mem::take(&mut self.wakes);
@@ -56,9 +79,13 @@ impl OpenWater {
             }
             for kept in &wakes.kept {
                 let way = wakes.ways.get(kept.body).copied().unwrap_or_default();
+                let length = self.bodies.body(kept.body).map_or(1.0, length);
                 if let Some(grid) = self.grids.get_mut(kept.grid) {
-                    let faster = way.length() / grid.desc.wave_speed;
-                    let share = TRAIL * ((faster - SLOWER[0]) / (SLOWER[1] - SLOWER[0])).clamp(0.0, 1.0);
+                    let (faster, [low, high]) = match grid.desc.scheme.is_wave_equation() {
+                        true => (way.length() / grid.desc.wave_speed, SLOWER),
+                        false => (froude(way, length), WAKING),
+                    };
+                    let share = TRAIL * ((faster - low) / (high - low)).clamp(0.0, 1.0);
                     grid.trail = -way.normalize_or_zero().as_dvec2() * grid.room().min_element() * f64::from(share);
                 }
             }
@@ -97,7 +124,7 @@ impl OpenWater {
             }
         }
         for kept in &wakes.kept {
-            let cell_size = desc.level(kept.level).cell_size;
+            let cell_size = desc.level(kept.level, kept.size).cell_size;
             wakes.told.insert(kept.body, Wake::Grid { grid: kept.grid, cell_size });
         }
     }
@@ -118,10 +145,11 @@ impl OpenWater {
             }
             let place = body.state().position;
             let distance = self.looking.map_or(0.0, |look| look.eye.distance(place));
-            let froude = wakes.ways.get(id).map_or(0.0, |way| way.length()) / (GRAVITY * length).sqrt();
+            let froude = wakes.ways.get(id).map_or(0.0, |way| froude(*way, length));
             let near = if self.looking.is_some() { distance.max(length) } else { 1.0 };
             let weight = length * (froude / FAST).min(1.0) / near;
-            asking.push(Asking { body: id, weight, distance, still: froude < STILL, place });
+            let size = desc.size(length);
+            asking.push(Asking { body: id, weight, distance, size, still: froude < STILL, place });
         }
         asking
     }
@@ -131,7 +159,7 @@ impl OpenWater {
         for at in 0..wakes.kept.len() {
             let Kept { body, grid, level, .. } = wakes.kept[at];
             let Some(of) = asking.iter().find(|asking| asking.body == body) else { continue };
-            let wanted = desc.wanted(of.distance, Some(level));
+            let wanted = desc.wanted(of.distance, of.size, Some(level));
             let settled = self.grids.get(grid).is_ok_and(|grid| grid.gain == 1.0);
             // Larger cells may always come: else a full budget could never get more room.
             let room = if wanted > level { desc.cells + desc.cells / 4 } else { desc.cells };
@@ -140,7 +168,7 @@ impl OpenWater {
             }
             let Some(new) = self.make(desc, wanted, of, Some(grid)) else { continue };
             *left -= 1;
-            self.pass_on(wakes, grid, new, cells_of(&desc.level(level)));
+            self.pass_on(wakes, grid, new, cells_of(&desc.level(level, of.size)));
             (wakes.kept[at].grid, wakes.kept[at].level) = (new, wanted);
         }
     }
@@ -165,17 +193,18 @@ impl OpenWater {
 
     /// Gives a body a grid, if need be at the cost of one that matters less.
     fn give(&mut self, wakes: &mut Wakes, desc: &WakesDesc, asking: &Asking, claimed: &mut u64, left: &mut usize) {
-        let wanted = desc.wanted(asking.distance, None);
+        let wanted = desc.wanted(asking.distance, asking.size, None);
         let level = (wanted..=desc.coarsest())
             .find(|level| self.fits(wakes, desc, *level, desc.cells.saturating_sub(*claimed)));
         if let Some(level) = level {
             if let Some(grid) = self.make(desc, level, asking, None) {
                 *left -= 1;
-                wakes.kept.push(Kept { body: asking.body, grid, level, weight: asking.weight });
+                let Asking { body, weight, size, .. } = *asking;
+                wakes.kept.push(Kept { body, grid, level, size, weight });
             }
             return;
         }
-        let needed = cells_of(&desc.level(wanted));
+        let needed = cells_of(&desc.level(wanted, asking.size));
         let fading = |wakes: &Wakes| wakes.fading.iter().map(|(_, cells)| cells).sum::<u64>();
         // What fades now will do; else who matters least.
         while used(wakes, desc).saturating_sub(fading(wakes)) + *claimed + needed > desc.cells
@@ -192,13 +221,13 @@ impl OpenWater {
 
     /// Whether one more grid fits into `room` cells.
     fn fits(&self, wakes: &Wakes, desc: &WakesDesc, level: u32, room: u64) -> bool {
-        let needed = cells_of(&desc.level(level));
+        let needed = cells_of(&desc.level(level, 0));
         self.grids.iter().len() < MAX_GRIDS && used(wakes, desc) + needed <= room
     }
 
     /// A grid around a body, instead of `old` if there is one.
     fn make(&mut self, desc: &WakesDesc, level: u32, asking: &Asking, old: Option<GridId>) -> Option<GridId> {
-        let desc = GridDesc { follow: Follow::Body(asking.body), ..desc.level(level) };
+        let desc = GridDesc { follow: Follow::Body(asking.body), ..desc.level(level, asking.size) };
         let id = self.add_grid(desc).ok()?;
         let place = DVec2::new(asking.place.x.into(), asking.place.z.into());
         let trail = old.and_then(|old| self.grids.get(old).ok()).map_or(DVec2::ZERO, |old| old.trail);
@@ -223,6 +252,6 @@ impl OpenWater {
 
 /// Cells of all grids that are kept or still fade.
 fn used(wakes: &Wakes, desc: &WakesDesc) -> u64 {
-    let kept = wakes.kept.iter().map(|kept| cells_of(&desc.level(kept.level)));
+    let kept = wakes.kept.iter().map(|kept| cells_of(&desc.level(kept.level, kept.size)));
     kept.chain(wakes.fading.iter().map(|(_, cells)| *cells)).sum()
 }

@@ -12,17 +12,26 @@ use slotmap::SecondaryMap;
 use crate::store::{BodyId, GridId};
 use crate::water::OpenWater;
 use crate::{GridDesc, GridHome, OpenWaterError, Preset};
+#[cfg(doc)]
+use wave_grid::Scheme;
 
 /// Cells double this often at most, and a grid has as many on a side at least.
 const COARSEST: u32 = 2;
 const FEWEST: u32 = 64;
 /// Beyond a distance where cells change, this share farther or nearer, they do.
 const BAND: f32 = 0.15;
+/// Longest hull that water waves are made for, cells: what is wider than that rings. Half as much again are the longest waves
+/// of a hull that is not planing, 2 pi Fr^2 L with Fr = .5: well within the 128 cells that the scheme is made for.
+const LONGEST: f32 = 48.0;
+/// Cells double this often at most for the hull's sake.
+const LARGEST: u32 = 4;
 
 /// Grids that bodies get by themselves, see [`OpenWater::set_wakes`].
 #[derive(Debug, Clone)]
 pub struct WakesDesc {
-    /// The grid of a body near the eye, on the CPU; whom it follows is not read.
+    /// The grid of a body near the eye, on the CPU; whom it follows is not read. With [`Scheme::Dispersive`] and
+    /// [`Scheme::Spectral`], hulls longer than 48 of its cells get as many larger ones: twice, four times, up to 16 times as
+    /// large.
     pub grid: GridDesc,
     /// Cells that all of these grids together may have, those that fade too, at least those of `grid`; a quarter more for
     /// the second in which one takes over from another. A cell takes about 40 bytes.
@@ -86,7 +95,7 @@ impl WakesDesc {
     fn check(&self, tick: f32) -> Result<(), OpenWaterError> {
         let invalid = |field, value, bound| Err(OpenWaterError::InvalidValue { field, value, bound });
         for level in 0..=self.coarsest() {
-            self.level(level).wave_grid(tick).stepping()?;
+            self.level(level, 0).wave_grid(tick).stepping()?;
         }
         if self.grid.home == GridHome::Gpu || self.grid.feed.any() {
             return invalid("wakes: grid", 1.0, "homed on the CPU and not fed");
@@ -109,9 +118,19 @@ impl WakesDesc {
         (0..COARSEST).take_while(|level| fewest >> (level + 1) >= FEWEST).count() as u32
     }
 
-    /// The grid whose cells were doubled so often.
-    fn level(&self, level: u32) -> GridDesc {
-        let larger = (1u32 << level) as f32;
+    /// How often cells are doubled for the sake of a hull so long, metres.
+    fn size(&self, length: f32) -> u32 {
+        if self.grid.scheme.is_wave_equation() {
+            return 0;
+        }
+        let cell = self.grid.cell_size[0].max(self.grid.cell_size[1]);
+        (0..LARGEST).take_while(|size| length > LONGEST * cell * (1u32 << size) as f32).count() as u32
+    }
+
+    /// The grid whose cells were doubled so often for the sake of the distance, which leaves fewer of them, and so often for
+    /// that of the hull.
+    fn level(&self, level: u32, size: u32) -> GridDesc {
+        let larger = (1u32 << (level + size)) as f32;
         GridDesc {
             cells: self.grid.cells.map(|n| n >> level),
             cell_size: self.grid.cell_size.map(|h| h * larger),
@@ -119,10 +138,12 @@ impl WakesDesc {
         }
     }
 
-    /// How often they should be doubled at a distance, for a grid where they are `now`.
-    fn wanted(&self, distance: f32, now: Option<u32>) -> u32 {
+    /// How often they should be doubled at a distance, for a hull whose sake has doubled them `size` times and a grid where
+    /// they are `now`.
+    fn wanted(&self, distance: f32, size: u32, now: Option<u32>) -> u32 {
         let beyond = |band: f32| {
-            let bounds = [self.fine, 2.0 * self.fine];
+            let fine = self.fine * (1u32 << size) as f32;
+            let bounds = [fine, 2.0 * fine];
             (bounds.iter().filter(|bound| distance > **bound * band).count() as u32).min(self.coarsest())
         };
         match now {
@@ -137,6 +158,7 @@ struct Kept {
     body: BodyId,
     grid: GridId,
     level: u32,
+    size: u32,
     weight: f32,
 }
 
