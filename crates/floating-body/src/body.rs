@@ -2,6 +2,7 @@
 
 mod moorings;
 mod query;
+mod radiate;
 mod state;
 mod stiffness;
 mod substep;
@@ -14,6 +15,7 @@ use self::stiffness::stiffness;
 use crate::desc::Inertia;
 use crate::forces::LocalWater;
 use crate::hull::Waterline;
+use crate::radiation::Radiator;
 use crate::rotation::{normalized, principal_moments};
 use crate::source::{Column, Displacement};
 use crate::{BodyDesc, BodyError, ForcePoint, MooringLine, SurfaceSample};
@@ -77,7 +79,9 @@ pub struct Body {
     /// Of each line, mean over the last tick.
     tensions: Vec<f32>,
     immersed: f32,
-    /// The waves of its home grid act on it.
+    /// What it exchanges with a grid that carries textures.
+    radiator: Option<Box<Radiator>>,
+    /// The heights of its home grid act on its points.
     feels_own: bool,
     /// The waves it makes take its energy away; otherwise its coefficients do.
     radiates: bool,
@@ -111,7 +115,7 @@ impl Body {
         let (low, high) = desc.hull.bounds();
         let count = points.len() + usize::from(desc.engine.is_some());
         let state = BodyState::at_rest(Vec3::new(0.0, desc.center_of_mass.y - waterline.level, 0.0));
-        Ok(Self {
+        let body = Self {
             inertia,
             mismatch: (most - least) / mean,
             waterline,
@@ -129,11 +133,14 @@ impl Body {
             moorings: Vec::new(),
             tensions: Vec::new(),
             immersed: 0.0,
+            radiator: None,
             feels_own: false,
             radiates: false,
             points,
             desc,
-        })
+        };
+        body.check_tables()?;
+        Ok(body)
     }
 
     /// Replaces a broken state by the last good one and clamps speeds.
@@ -150,10 +157,12 @@ impl Body {
     }
 
     /// Appends what the last step changed in the water: for each column the volume now displaced (+) and the one that
-    /// was (-). The first step after [`Body::set_state`] or a teleport starts from the new place without a splash.
+    /// was (-), unless [`Body::imprints`] tell it. The first step after [`Body::set_state`] or a teleport starts from the new place without a splash.
     pub fn displacements(&self, out: &mut Vec<Displacement>) {
-        for (column, point) in self.columns.iter().zip(&self.points) {
-            column.tell(point, out);
+        if self.imprints().is_none() {
+            for (column, point) in self.columns.iter().zip(&self.points) {
+                column.tell(point, out);
+            }
         }
         if self.wash.foam > 0.0 {
             out.push(self.wash);
@@ -185,6 +194,7 @@ impl Body {
         self.state.position -= shift;
         self.good.position -= shift;
         self.columns.iter_mut().for_each(|c| c.rebase(offset));
+        self.radiator.iter_mut().for_each(|r| r.rebase(offset));
         self.wash.center -= offset;
         self.moorings.iter_mut().for_each(|line| line.anchor -= shift);
     }

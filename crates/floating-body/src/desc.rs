@@ -5,7 +5,7 @@ use glam::{Mat3, Vec3};
 use crate::coefficients::{Afloat, Coefficients};
 use crate::drag::Drag;
 use crate::error::check_range;
-use crate::{BodyError, Engine, ForcePoint, GRAVITY, Hull, WATER_DENSITY};
+use crate::{BodyError, Engine, ForcePoint, GRAVITY, Hull, RadiationTables, WATER_DENSITY};
 
 /// Bodies shorter than this, in m, read one patch of water by default.
 pub(crate) const PATCH_LENGTH: f32 = 2.5;
@@ -29,8 +29,11 @@ pub enum Radiation {
     /// lift it. In a grid that others disturb it feels all waves and, to count none twice, makes none.
     #[default]
     Coefficients,
-    /// The home grid's waves act (`SurfaceSample::own`), the body's with all others', and take its energy away; added
-    /// mass and damping are off. Where no grid carries the body's waves, as `Coefficients`.
+    /// The home grid's waves act, the body's with all others', and take its energy away. On a grid that carries
+    /// [`Textures`](crate::Textures) (a dispersive one, where waves of each length have their own speed) heave, roll and
+    /// pitch exchange energy with it by the radiation that [`BodyDesc::tables`] tell or that is estimated; the added mass
+    /// that the grid does not bring stays. On others the points read its height (`SurfaceSample::own`), and added mass
+    /// and damping are off. Where no grid carries the body's waves, as `Coefficients`.
     Grid,
 }
 
@@ -77,6 +80,9 @@ pub struct BodyDesc {
     pub points: ForcePoints,
     /// Added mass and radiation damping; used with [`Radiation::Coefficients`].
     pub coefficients: Coefficients,
+    /// Radiation against frequency, for [`Radiation::Grid`] on a dispersive grid. What is `None` (default) is Hulme's for
+    /// a sphere and otherwise estimated from the waterplane, the mean draft and the coefficients.
+    pub tables: RadiationTables,
     /// Water friction and form drag.
     pub drag: Drag,
     /// Default: none.
@@ -100,6 +106,7 @@ impl BodyDesc {
             sampling: if small { Sampling::Patch } else { Sampling::Points },
             points: ForcePoints::default(),
             coefficients: Coefficients::default(),
+            tables: RadiationTables::default(),
             drag: Drag::default(),
             engine: None,
             water_density: WATER_DENSITY,
@@ -207,6 +214,7 @@ impl BodyDesc {
         }
         check_all("drag.cross_flow", self.drag.cross_flow, 0.0, 1.0, "in [0, 1]")?;
         check_all("drag.lateral_center", self.drag.lateral_center, -1.0e4, 1.0e4, "within +-10000 m")?;
+        self.tables.check()?;
         self.engine.as_ref().map_or(Ok(()), Engine::check)
     }
 }

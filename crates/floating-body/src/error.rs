@@ -16,6 +16,50 @@ pub enum BodyError {
         /// What is allowed.
         bound: &'static str,
     },
+    /// A radiation table whose columns differ in length, or with too few rows.
+    #[error(
+        "the radiation table of {mode} has {omega} frequencies, {added} added masses and {damping} dampings; \
+         all three must be equal and at least 4"
+    )]
+    TableRows {
+        /// Heave, roll or pitch.
+        mode: &'static str,
+        /// Frequencies found.
+        omega: usize,
+        /// Added masses found.
+        added: usize,
+        /// Dampings found.
+        damping: usize,
+    },
+    /// A number of a radiation table that cannot be.
+    #[error("the radiation table of {mode}: {column} in row {row} is {value}; it must be {bound}")]
+    TableValue {
+        /// Heave, roll or pitch.
+        mode: &'static str,
+        /// The column.
+        column: &'static str,
+        /// The row, counted from 0.
+        row: usize,
+        /// What was found.
+        value: f64,
+        /// What is allowed.
+        bound: &'static str,
+    },
+    /// A radiation table that leaves out the frequency at which the body swings.
+    #[error(
+        "the radiation table of {mode} reaches from {from} to {to} rad/s; the body's own frequency, {natural} rad/s, \
+         must lie within"
+    )]
+    TableRange {
+        /// Heave, roll or pitch.
+        mode: &'static str,
+        /// Lowest frequency, rad/s.
+        from: f64,
+        /// Highest frequency, rad/s.
+        to: f64,
+        /// The body's, with the table's added mass, rad/s.
+        natural: f64,
+    },
     /// A mesh without triangles, or one whose triangles are all degenerate.
     #[error(
         "the mesh has no usable triangle: {vertices} vertices, {triangles} triangles of which \

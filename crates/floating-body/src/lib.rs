@@ -35,6 +35,7 @@ mod forces;
 mod hull;
 mod mooring;
 mod point;
+mod radiation;
 mod rotation;
 mod source;
 mod water;
@@ -48,6 +49,7 @@ pub use error::BodyError;
 pub use hull::{Closure, Hull, HullKind, TriMesh, Waterline};
 pub use mooring::MooringLine;
 pub use point::{ForcePoint, PointShape};
+pub use radiation::{Imprint, RadiationTable, RadiationTables, TextureKernel, Textures};
 pub use source::Displacement;
 pub use water::{AiryWave, FlatWater, Home, SurfacePatch, SurfaceSample, WaterSurface};
 

@@ -88,6 +88,13 @@ pub trait WaterSurface: Sync {
     fn sample(&self, points: &[Vec2], out: &mut [SurfaceSample]);
     /// The water averaged over a disc of `radius` m about `center`.
     fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch;
+    /// The waves of the home grid, the body's own among them, over the body's textures (heave, roll, pitch: m^3, m^4, m^4)
+    /// about its centre of mass and with its heading (radians from x towards z). `None` where no grid carries them; asked
+    /// of bodies with [`Radiation::Grid`](crate::Radiation::Grid) whose textures were fitted
+    /// ([`Body::fit_textures`](crate::Body::fit_textures)).
+    fn radiated(&self, _at: Vec2, _heading: f32) -> Option<[f32; 3]> {
+        None
+    }
     /// Whose waves `own` holds.
     fn home(&self) -> Home {
         Home::None

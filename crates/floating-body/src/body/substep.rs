@@ -26,9 +26,10 @@ impl Body {
 
     pub(super) fn read(&mut self, water: &dyn WaterSurface) {
         let (home, by_grid) = (water.home(), self.desc.radiation == Radiation::Grid);
-        self.feels_own = home == Home::Shared || (home == Home::Own && by_grid);
-        self.radiates = home != Home::None && by_grid;
         let pose = self.pose();
+        let by_textures = self.read_textures(water, home != Home::None && by_grid, &pose);
+        self.feels_own = !by_textures && (home == Home::Shared || (home == Home::Own && by_grid));
+        self.radiates = !by_textures && home != Home::None && by_grid;
         let spots = self.points.iter().map(|p| p.position);
         let spots = spots.chain(self.desc.engine.map(|e| e.position - self.desc.center_of_mass));
         for (at, spot) in self.at.iter_mut().zip(spots) {
@@ -63,7 +64,7 @@ impl Body {
         let wet = immerse(&self.points, &self.waters, &pose, own, desc.water_density);
         let share = (wet.volume / self.waterline.volume).min(DEEPEST);
         let to_body = pose.rotation.transpose();
-        let coefficients = if self.radiates { Default::default() } else { desc.coefficients };
+        let (coefficients, push) = self.radiation();
         let axes = resistance_axes(pose.rotation, wet.slope, desc.hull.is_blunt());
         let to_axes = axes.transpose();
         let water = to_axes * wet.velocity;
@@ -77,7 +78,7 @@ impl Body {
         let velocity = to_axes * self.state.velocity;
 
         let (engine_force, engine_torque) = self.engine(&pose, velocity - water, controls);
-        let drive = to_axes * (wet.force + gravity(desc.mass) + controls.force + pose.rotation * engine_force)
+        let drive = to_axes * (wet.force + Vec3::Y * push.x + gravity(desc.mass) + controls.force + pose.rotation * engine_force)
             + added * (to_axes * Vec3::new(0.0, wet.acceleration, 0.0));
         // What the sub-steps cannot resolve is held back as an implicit step would.
         let held = 1.0 + (self.stiffness.x * dt * dt - FINEST * FINEST).max(0.0);
@@ -89,7 +90,7 @@ impl Body {
 
         let lateral = desc.drag.lateral_center - desc.center_of_mass;
         let torque =
-            to_body * (wet.torque + controls.torque) + engine_torque + lateral.cross(to_body * axes.z_axis * sideways);
+            to_body * (wet.torque + controls.torque) + self.texture_torque(push) + engine_torque + lateral.cross(to_body * axes.z_axis * sideways);
         let held = 1.0 + (self.stiffness.y * dt * dt - FINEST * FINEST).max(0.0);
         let turning = start * self.state.angular_velocity + inertia.inverse() * torque * (dt / held);
         let spin = turning - wet.spin;
@@ -137,5 +138,6 @@ impl Body {
         for ((column, point), water) in self.columns.iter_mut().zip(&self.points).zip(&self.waters) {
             column.measure(point, water, &pose, age, self.reach, restart);
         }
+        self.measure_textures(&pose, age, restart);
     }
 }
