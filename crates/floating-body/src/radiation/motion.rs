@@ -4,7 +4,7 @@
 //! is the volume of its columns, as it is for grids without textures, so that a body that leaves the water takes all of it
 //! along; while it is afloat heave's texture stands for the change.
 
-use glam::{Mat3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 use super::texture::Textures;
 use crate::ForcePoint;
