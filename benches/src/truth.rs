@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use ocean_spectrum::CascadeModes;
 
+pub mod decay;
 pub mod diffraction;
 
 /// Gravity, m/s^2.

@@ -23,6 +23,7 @@ mod grid_step;
 mod grid_tiles;
 mod grid_wake;
 mod harbour;
+mod heave_decay;
 mod nested;
 mod ocean_buoy;
 mod ocean_fft;
@@ -88,6 +89,7 @@ pub const CASES: &[Case] = &[
     grid_medium::COST,
     body_float::DRAFT,
     body_float::TICK,
+    heave_decay::HEAVE,
     rapier::DRAFT,
     rapier::VS_OWN,
     facade::GPU_VS_CPU,

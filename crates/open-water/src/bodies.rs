@@ -3,14 +3,14 @@
 //! The hydrodynamics are `floating-body`'s. Here each body is given the water it sees, and what it displaced is handed
 //! to the grid it disturbs. Bodies do not see each other: collisions are the physics engine's.
 
-use floating_body::{Body, BodyState, Controls, Displacement, MooringLine, Radiation, Wrench};
+use floating_body::{Body, BodyState, Controls, Displacement, MooringLine, Radiation, TextureKernel, Textures, Wrench};
 use glam::{Quat, Vec2, Vec3};
 use rayon::prelude::*;
 use slotmap::SlotMap;
-use wave_grid::Source;
+use wave_grid::{Pattern, PatternKernel, Scheme, Source};
 
 use crate::cpu::surface::{BodyWater, Composite};
-use crate::grids::Grids;
+use crate::grids::{Grid, Grids, Sim};
 use crate::handover::{Homes, Settler};
 use crate::store::{BodyId, BodyMotion, BodyStore, GridId, Wants};
 use crate::{OpenWaterError, Reports};
@@ -61,9 +61,36 @@ pub(crate) struct Entry {
     wrench: Wrench,
     previous: Option<Pose>,
     displaced: Vec<Displacement>,
+    /// Its textures, if it radiates into a grid that carries them.
+    pattern: Option<Box<Pattern>>,
+}
+
+/// Cells of a grid that carries the textures of bodies, metres: waves of each length need their own speed.
+pub(crate) fn carries(grid: &Grid) -> Option<f32> {
+    let fits = matches!(grid.sim, Sim::Cpu(_)) && matches!(grid.desc.scheme, Scheme::Dispersive | Scheme::Spectral);
+    fits.then_some(grid.desc.cell_size[0])
+}
+
+fn pattern(textures: &Textures) -> Option<Box<Pattern>> {
+    let kernels = |of: &[TextureKernel]| -> Vec<PatternKernel> {
+        of.iter().map(|k| PatternKernel { offset: k.offset, depth: k.depth, weight: k.weight }).collect()
+    };
+    let layers = [&textures.heave, &textures.roll, &textures.pitch, &textures.hull].map(|of| kernels(of));
+    Pattern::new([&layers[0], &layers[1], &layers[2], &layers[3]], textures.reach).ok().map(Box::new)
 }
 
 impl Entry {
+    /// Has its textures fit the grid that is its home, if that carries any.
+    fn fit(&mut self, grids: &Grids) {
+        if !self.radiates() {
+            return;
+        }
+        let cell = self.homes.now().and_then(|home| carries(grids.get(home).ok()?));
+        if cell.is_some_and(|cell| self.body.fit_textures(cell)) {
+            self.pattern = self.body.textures().and_then(pattern);
+        }
+    }
+
     /// The waves it makes take its energy away.
     fn radiates(&self) -> bool {
         self.body.desc().radiation == Radiation::Grid
@@ -94,6 +121,7 @@ impl Bodies {
             wrench: Wrench::default(),
             previous: None,
             displaced: Vec::new(),
+            pattern: None,
         });
         id
     }
@@ -188,7 +216,9 @@ impl Bodies {
                 let before = entry.body.state();
                 let jumped = entry.previous.is_none();
                 entry.homes.settle(grids, entry.settler(before), dt, jumped);
-                let water = BodyWater { water, body: entry.id, homes: &entry.homes, by_grid: entry.radiates() };
+                entry.fit(grids);
+                let (by_grid, pattern) = (entry.radiates(), entry.pattern.as_deref());
+                let water = BodyWater { water, body: entry.id, homes: &entry.homes, by_grid, pattern };
                 match entry.wants {
                     Wants::State => entry.body.step(dt, &water, &entry.controls),
                     Wants::Wrench => entry.wrench = entry.body.step_wrench(dt, &water, &entry.controls),
@@ -205,6 +235,13 @@ impl Bodies {
         for entry in self.list.iter().filter(|entry| entry.active) {
             let Some(home) = entry.homes.now() else { continue };
             for grid in grids.taking(home) {
+                if let (Some(imprints), Some(pattern), Sim::Cpu(sim)) =
+                    (entry.body.imprints(), &entry.pattern, &mut grid.sim)
+                {
+                    for imprint in imprints {
+                        sim.add_pattern(pattern, imprint.at, imprint.heading, imprint.amounts);
+                    }
+                }
                 for d in &entry.displaced {
                     let center = Vec2::new(d.center.x, d.center.y);
                     if d.volume != 0.0 {

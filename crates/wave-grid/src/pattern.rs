@@ -208,10 +208,7 @@ impl WaveGrid {
         let (window, half) = (&self.place.window, pattern.half());
         let (h, center) = (window.h(), window.cells_from_corner(at, self.origin));
         let (sin, cos) = libm::sincos(f64::from(heading));
-        let wide = DVec2::new(
-            cos.abs() * half.x + sin.abs() * half.y,
-            sin.abs() * half.x + cos.abs() * half.y,
-        ) / h;
+        let wide = DVec2::new(cos.abs() * half.x + sin.abs() * half.y, sin.abs() * half.x + cos.abs() * half.y) / h;
         let rim = self.source_rim() as f64;
         let mut range = [[0; 2]; 2];
         for (k, range) in range.iter_mut().enumerate() {
@@ -228,14 +225,8 @@ impl WaveGrid {
         let place = |x: f64, z: f64| [(cos * x + sin * z) * per, (cos * z - sin * x) * per];
         let (first, x, z) = (place(to.x, to.y), place(h.x, 0.0), place(0.0, h.y));
         let middle = pattern.count.map(|n| 0.5 * (n - 1) as f64);
-        let corner = [0, 1].map(|k| {
-            first[k] + middle[k] + x[k] * range[0][0] as f64 + z[k] * range[1][0] as f64
-        });
-        Some(Footing {
-            range,
-            from: corner.map(|v| v as f32),
-            along: [x, z].map(|step| step.map(|v| v as f32)),
-        })
+        let corner = [0, 1].map(|k| first[k] + middle[k] + x[k] * range[0][0] as f64 + z[k] * range[1][0] as f64);
+        Some(Footing { range, from: corner.map(|v| v as f32), along: [x, z].map(|step| step.map(|v| v as f32)) })
     }
 }
 

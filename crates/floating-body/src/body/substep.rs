@@ -78,7 +78,8 @@ impl Body {
         let velocity = to_axes * self.state.velocity;
 
         let (engine_force, engine_torque) = self.engine(&pose, velocity - water, controls);
-        let drive = to_axes * (wet.force + Vec3::Y * push.x + gravity(desc.mass) + controls.force + pose.rotation * engine_force)
+        let drive = to_axes
+            * (wet.force + Vec3::Y * push.x + gravity(desc.mass) + controls.force + pose.rotation * engine_force)
             + added * (to_axes * Vec3::new(0.0, wet.acceleration, 0.0));
         // What the sub-steps cannot resolve is held back as an implicit step would.
         let held = 1.0 + (self.stiffness.x * dt * dt - FINEST * FINEST).max(0.0);
@@ -89,8 +90,10 @@ impl Body {
         self.state.velocity = axes * (slowed + water);
 
         let lateral = desc.drag.lateral_center - desc.center_of_mass;
-        let torque =
-            to_body * (wet.torque + controls.torque) + self.texture_torque(push) + engine_torque + lateral.cross(to_body * axes.z_axis * sideways);
+        let torque = to_body * (wet.torque + controls.torque)
+            + self.texture_torque(push)
+            + engine_torque
+            + lateral.cross(to_body * axes.z_axis * sideways);
         let held = 1.0 + (self.stiffness.y * dt * dt - FINEST * FINEST).max(0.0);
         let turning = start * self.state.angular_velocity + inertia.inverse() * torque * (dt / held);
         let spin = turning - wet.spin;

@@ -62,8 +62,9 @@ impl<'a> Mode<'a> {
 /// How waves excite a mode against their frequency.
 pub(crate) struct Curve<'a> {
     pub(crate) afloat: &'a Afloat<'a>,
-    /// Places over the whole waterplane.
-    pub(crate) elements: Vec<Element>,
+    pub(crate) elements: &'a [Element],
+    /// What their weights are short of the waterplane's at long waves.
+    pub(crate) arm: f64,
     pub(crate) table: Option<&'a RadiationTable>,
 }
 
@@ -83,6 +84,6 @@ impl Curve<'_> {
         let area = f64::from(a.waterline.area);
         let draft = f64::from(a.waterline.volume) / area;
         let giving_way = 1.0 + 2.0 * k * f64::from(a.coefficients.added_mass.y) / (density * area);
-        spread(&self.elements, k).sqrt() * libm::exp(-k * draft) / giving_way
+        self.arm * spread(self.elements, k).sqrt() * libm::exp(-k * draft) / giving_way
     }
 }

@@ -69,7 +69,7 @@ const SHALLOWEST: f64 = 1.0;
 const HULL: f32 = 2.0;
 /// Places along the hull by its slenderness, at most.
 const MOST: f64 = 8.0;
-/// The waterplane's second moments that the places have: kernels widen them.
+/// Share of the waterplane's second moments that the places have: kernels widen them, and a hull's ends radiate less.
 const DRAWN_IN: f64 = 0.5;
 /// Least mass left, as a share of the whole: a texture that would carry more is no good.
 const LEAST: f64 = 0.1;
@@ -107,7 +107,12 @@ impl Textures {
         for (i, mode) in modes.iter().enumerate() {
             let Some(mode) = mode else { continue };
             let elements = line(a, i);
-            let curve = Curve { afloat: a, elements: plane(a, i), table: mode.table.as_deref() };
+            let curve = Curve {
+                afloat: a,
+                elements: &elements,
+                arm: if i == 0 { 1.0 } else { 1.0 / DRAWN_IN },
+                table: mode.table.as_deref(),
+            };
             let target = Target {
                 elements: &elements,
                 natural: mode.natural,
@@ -162,18 +167,6 @@ fn line(a: &Afloat, mode: usize) -> Vec<Element> {
         }
         _ => along().map(|x| Element { at: [x, 0.0], weight: x * share }).collect(),
     }
-}
-
-/// The waterplane itself, with a mode's weights.
-fn plane(a: &Afloat, mode: usize) -> Vec<Element> {
-    const ROWS: usize = 4;
-    let ([along, across], count) = moments(a);
-    let share = f64::from(a.waterline.area) / (count * ROWS) as f64;
-    let weight = |x: f64, z: f64| share * [1.0, -z, x][mode];
-    places(along, count)
-        .flat_map(|x| places(across, ROWS).map(move |z| [x, z]))
-        .map(|[x, z]| Element { at: [x, z], weight: weight(x, z) })
-        .collect()
 }
 
 /// The volume at rest, three pieces a column.

@@ -6,9 +6,10 @@
 use floating_body::{Home, SurfacePatch, SurfaceSample, WaterSurface};
 use glam::{Vec2, Vec3};
 use ocean_spectrum::{Ocean, OceanSample};
-use wave_grid::GridSample;
+use wave_grid::{GridSample, Pattern};
 
-use crate::grids::{Grid, Grids};
+use crate::bodies::carries;
+use crate::grids::{Grid, Grids, Sim};
 use crate::handover::Homes;
 use crate::land::Shore;
 use crate::store::BodyId;
@@ -111,6 +112,8 @@ pub(crate) struct BodyWater<'a> {
     pub(crate) homes: &'a Homes,
     /// The body feels its own waves.
     pub(crate) by_grid: bool,
+    /// Its textures, as the home grid writes and reads them.
+    pub(crate) pattern: Option<&'a Pattern>,
 }
 
 impl BodyWater<'_> {
@@ -167,6 +170,17 @@ impl WaterSurface for BodyWater<'_> {
             // The waves it left behind are felt on as they were.
             None if self.by_grid && self.homes.any() => Home::Shared,
             None => Home::None,
+        }
+    }
+
+    fn radiated(&self, at: Vec2, heading: f32) -> Option<[f32; 3]> {
+        let grid = self.homes.now().and_then(|home| self.water.grids.get(home).ok())?;
+        match &grid.sim {
+            Sim::Cpu(sim) if carries(grid).is_some() => {
+                let [heave, roll, pitch, _] = sim.read_pattern(self.pattern?, at, heading);
+                Some([heave, roll, pitch])
+            }
+            _ => None,
         }
     }
 
