@@ -86,7 +86,7 @@ fn released(float: &Float, cell: f32, rate: u32) -> Result<Vec<f64>, CaseError> 
     let body = water.add_body(body)?;
     water.add_grid(GridDesc {
         follow: Follow::Body(body),
-        cells: [(144.0 / cell) as u32; 2],
+        cells: [(112.0 / cell) as u32; 2],
         cell_size: [cell; 2],
         scheme: Scheme::Dispersive,
         border: Border::Absorbing { width: 16 },

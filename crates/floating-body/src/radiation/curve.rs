@@ -61,29 +61,49 @@ impl<'a> Mode<'a> {
 
 /// How waves excite a mode against their frequency.
 pub(crate) struct Curve<'a> {
-    pub(crate) afloat: &'a Afloat<'a>,
-    pub(crate) elements: &'a [Element],
-    /// What their weights are short of the waterplane's at long waves.
-    pub(crate) arm: f64,
-    pub(crate) table: Option<&'a RadiationTable>,
+    afloat: &'a Afloat<'a>,
+    elements: &'a [Element],
+    table: Option<&'a RadiationTable>,
+    /// Of the estimate.
+    scale: f64,
 }
 
-impl Curve<'_> {
-    /// `sqrt(2 B / (rho omega k))`, root mean square over directions: m^2 in heave, m^3 in roll and pitch.
-    ///
-    /// Without a table Haskind's relation with the pressure of the undisturbed wave over the waterplane, `exp(-k T)` at the
-    /// mean draft T, less what the water that gives way takes: `1 + k A0 / (rho Aw)`, A0 being the added mass of slow
-    /// heave, about twice that of the estimate. Within 10 % of a hemisphere's (Hulme) and of a box barge's at their own
-    /// frequencies.
+impl<'a> Curve<'a> {
+    /// Of mode 0 heave, 1 roll or 2 pitch. `None` when there is no damping to radiate.
+    pub(crate) fn new(afloat: &'a Afloat<'a>, mode: &'a Mode, elements: &'a [Element], index: usize) -> Option<Self> {
+        let table = mode.table.as_deref();
+        let mut curve = Self { afloat, elements, table, scale: 1.0 };
+        if table.is_none() {
+            let c = afloat.coefficients;
+            let damping = f64::from([c.damping.y, c.angular_damping.x, c.angular_damping.z][index]);
+            curve.scale = haskind(damping, mode.natural, f64::from(afloat.density)) / curve.estimate(mode.natural);
+        }
+        if curve.scale > 0.0 && curve.scale.is_finite() { Some(curve) } else { None }
+    }
+
+    /// `sqrt(2 B / (rho omega k))`, root mean square over directions: m^2 in heave, m^3 in roll and pitch. Without a table
+    /// an estimate, scaled so that the damping at the body's own frequency is that of its coefficients.
     pub(crate) fn excitation(&self, omega: f64) -> f64 {
+        match self.table {
+            Some(table) => haskind(table.damping_at(omega), omega, f64::from(self.afloat.density)),
+            None => self.scale * self.estimate(omega),
+        }
+    }
+
+    /// The pressure of the undisturbed wave over the texture's places, `exp(-k T)` at the mean draft T, less what the water
+    /// that gives way takes: `1 + k A0 / (rho Aw)`, A0 being the added mass of slow heave, about twice the estimate.
+    fn estimate(&self, omega: f64) -> f64 {
         let a = self.afloat;
         let (density, k) = (f64::from(a.density), omega * omega / f64::from(GRAVITY));
-        if let Some(table) = self.table {
-            return (2.0 * table.damping_at(omega) / (density * omega * k)).sqrt();
-        }
         let area = f64::from(a.waterline.area);
         let draft = f64::from(a.waterline.volume) / area;
         let giving_way = 1.0 + 2.0 * k * f64::from(a.coefficients.added_mass.y) / (density * area);
-        self.arm * spread(self.elements, k).sqrt() * libm::exp(-k * draft) / giving_way
+        spread(self.elements, k).sqrt() * libm::exp(-k * draft) / giving_way
     }
+}
+
+/// Haskind's relation.
+fn haskind(damping: f64, omega: f64, density: f64) -> f64 {
+    let k = omega * omega / f64::from(GRAVITY);
+    (2.0 * damping / (density * omega * k)).sqrt()
 }

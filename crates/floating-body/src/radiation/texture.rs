@@ -107,12 +107,7 @@ impl Textures {
         for (i, mode) in modes.iter().enumerate() {
             let Some(mode) = mode else { continue };
             let elements = line(a, i);
-            let curve = Curve {
-                afloat: a,
-                elements: &elements,
-                arm: if i == 0 { 1.0 } else { 1.0 / DRAWN_IN },
-                table: mode.table.as_deref(),
-            };
+            let Some(curve) = Curve::new(a, mode, &elements, i) else { continue };
             let target = Target {
                 elements: &elements,
                 natural: mode.natural,
