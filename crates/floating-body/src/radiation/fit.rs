@@ -88,11 +88,12 @@ impl Basis {
             // B errs by omega k q dq; wavenumbers stand evenly in their logarithm.
             let weight = (libm::exp(-off * off) + AROUND.1) * ratio * ratio * ratio * ratio.sqrt();
             let wanted = (target.excitation)(omega);
-            for i in 0..n {
-                for j in 0..n {
-                    normal[i][j] += weight * weight * shape * shape * row[i] * row[j];
+            let own = row.iter().map(|h| weight * shape * h);
+            for ((sums, right), a) in normal.iter_mut().zip(&mut right).zip(own.clone()) {
+                for (sum, b) in sums.iter_mut().zip(own.clone()) {
+                    *sum += a * b;
                 }
-                right[i] += weight * weight * shape * row[i] * wanted;
+                *right += a * weight * wanted;
             }
         }
         let mean = (0..n).map(|i| normal[i][i]).sum::<f64>() / n as f64;
@@ -156,22 +157,22 @@ fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
         let pivot = (p..n).max_by(|x, y| a[*x][p].abs().total_cmp(&a[*y][p].abs()))?;
         a.swap(p, pivot);
         b.swap(p, pivot);
-        if a[p][p] == 0.0 {
+        let (upper, lower) = a.split_at_mut(p + 1);
+        let top = &upper[p];
+        if top[p] == 0.0 {
             return None;
         }
-        for r in p + 1..n {
-            let factor = a[r][p] / a[p][p];
-            for c in p..n {
-                a[r][c] -= factor * a[p][c];
+        for (i, row) in lower.iter_mut().enumerate() {
+            let factor = row[p] / top[p];
+            for (v, t) in row.iter_mut().zip(top).skip(p) {
+                *v -= factor * t;
             }
-            b[r] -= factor * b[p];
+            b[p + 1 + i] -= factor * b[p];
         }
     }
     for p in (0..n).rev() {
-        for c in p + 1..n {
-            b[p] -= a[p][c] * b[c];
-        }
-        b[p] /= a[p][p];
+        let known: f64 = a[p].iter().zip(&b).skip(p + 1).map(|(a, b)| a * b).sum();
+        b[p] = (b[p] - known) / a[p][p];
     }
     if b.iter().all(|v| v.is_finite()) { Some(b) } else { None }
 }

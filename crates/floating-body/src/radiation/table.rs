@@ -47,9 +47,9 @@ impl RadiationTable {
             Err(BodyError::TableValue { mode, column, row, value: f64::from(value), bound })
         };
         let most = self.damping.iter().fold(0.0_f32, |most, b| if b.is_finite() { most.max(*b) } else { most });
-        for row in 0..omega {
-            let [w, a, b] = [self.omega[row], self.added[row], self.damping[row]];
-            let last = if row > 0 { self.omega[row - 1] } else { 0.0 };
+        let mut last = 0.0;
+        for (row, ((w, a), b)) in self.omega.iter().zip(&self.added).zip(&self.damping).enumerate() {
+            let [w, a, b] = [*w, *a, *b];
             if !(w.is_finite() && w > last) {
                 return bad("omega", row, w, "finite, positive and above the row before");
             }
@@ -59,6 +59,7 @@ impl RadiationTable {
             if !(b.is_finite() && b >= -NEGATIVE * most) {
                 return bad("damping", row, b, "finite and >= 0, to 2 % of the largest");
             }
+            last = w;
         }
         if most > 0.0 { Ok(()) } else { bad("damping", 0, most, "positive at some frequency") }
     }
