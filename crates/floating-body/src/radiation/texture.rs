@@ -66,7 +66,7 @@ const REACH: f64 = 5.0;
 /// Kernels shallower than this many cells would be grid noise.
 const SHALLOWEST: f64 = 1.0;
 /// Those of the hull, which moves over the cells.
-const HULL: f32 = 2.0;
+const HULL: f32 = 1.0;
 /// Places along the hull by its slenderness, at most.
 const MOST: f64 = 8.0;
 /// Share of the waterplane's second moments that the places have: kernels widen them, and a hull's ends radiate less.
