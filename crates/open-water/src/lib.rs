@@ -69,8 +69,8 @@ pub use wakes::{Wake, WakesDesc};
 pub use water::{OpenWater, Reports};
 
 pub use floating_body::{
-    Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, HullKind, Inertia, MooringLine, Radiation, TriMesh,
-    Wrench,
+    Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, HullKind, Inertia, MooringLine, Radiation,
+    RadiationTable, RadiationTables, TriMesh, Wrench,
 };
 pub use ocean_spectrum::{
     CascadeDesc, DirectionalTable, Ocean, OceanDesc, Partition, SeaState, Spectrum, Spreading, TableRow, Tail,
