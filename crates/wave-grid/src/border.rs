@@ -45,7 +45,7 @@ impl Border {
     }
 
     /// Where a cell of the outermost ring has its height from, along an axis of `n` cells.
-    fn source(self, i: usize, n: usize) -> usize {
+    pub(crate) fn source(self, i: usize, n: usize) -> usize {
         match self {
             Self::Reflecting => i.clamp(1, n - 2),
             Self::Periodic if i == 0 => n - 2,

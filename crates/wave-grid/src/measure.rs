@@ -46,32 +46,48 @@ impl WaveGrid {
     }
 
     fn dispersive_energy(&self, fields: &Fields) -> f64 {
-        let nx = self.state.nx;
+        let [nx, nz] = [self.state.nx, self.state.nz];
         let g = self.stepping.a[0];
         let bed = self.cells().and_then(|cells| cells.bed.as_ref());
-        let (law, at) = (&fields.law, |field: &[f32], i: usize| f64::from(field[i]));
+        let (law, border) = (&fields.law, self.desc.border);
+        let at = |field: &[f32], i: usize| f64::from(field[i]);
+        // Heights in walls are for drawing.
+        let open = |at: usize| self.cells().is_none_or(|cells| cells.is_open(at));
         let p_old = |i: usize| at(&fields.potential, i) + g * at(&self.state.z, i);
         let mut sum = 0.0;
-        for j in 1..self.state.nz {
-            for i in j * nx + 1..(j + 1) * nx {
-                let (z, p) = (at(&self.state.z, i), at(&fields.potential, i));
-                sum += 0.5 * g * z * z;
-                for (axis, step) in [(0, 1), (1, nx)] {
-                    let weight = |k: usize, plain: f32| f64::from(bed.map_or(plain, |bed| bed.faces[axis][k][i]));
-                    let slopes = (p - at(&fields.potential, i - step)) * (p_old(i) - p_old(i - step));
+        for j in 1..nz {
+            for i in 1..nx {
+                let here = j * nx + i;
+                let inside = [i + 1 < nx, j + 1 < nz];
+                // The faces before the cell; before the outermost ring those that face it only. The ring's own values are of
+                // the sub-step before.
+                let own = border.source(j, nz) * nx + border.source(i, nx);
+                for (axis, beside) in [[i - 1, j], [i, j - 1]].into_iter().enumerate() {
+                    if !inside[1 - axis] || (!inside[axis] && border.has_ring()) {
+                        continue;
+                    }
+                    let other = border.source(beside[1], nz) * nx + border.source(beside[0], nx);
+                    let weight = |k: usize, plain: f32| f64::from(bed.map_or(plain, |bed| bed.faces[axis][k][here]));
+                    let potential = |i: usize| at(&fields.potential, i);
+                    let slopes = (potential(own) - potential(other)) * (p_old(own) - p_old(other));
                     sum += 0.5 * weight(0, law.c) * slopes;
                     for k in 0..FIELDS {
-                        let slope = |field: &[f32]| at(field, i) - at(field, i - step);
+                        let slope = |field: &[f32]| at(field, own) - at(field, other);
                         sum += 0.5 * weight(k + 1, law.s[k]) * slope(&fields.screened[k]) * slope(&fields.older[k]);
                     }
                 }
+                if inside != [true; 2] || !open(here) {
+                    continue;
+                }
+                let (z, p) = (at(&self.state.z, here), at(&fields.potential, here));
+                sum += 0.5 * g * z * z;
                 for k in 0..FIELDS {
-                    let (x, old) = (at(&fields.screened[k], i), at(&fields.older[k], i));
-                    let m = f64::from(bed.map_or(law.m[k], |bed| bed.m[k][i]));
+                    let (x, old) = (at(&fields.screened[k], here), at(&fields.older[k], here));
+                    let m = f64::from(bed.map_or(law.m[k], |bed| bed.m[k][here]));
                     if m > 0.0 {
                         sum += 0.5 * (x - old) * (x - old) / m;
                     }
-                    sum += 0.5 * f64::from(law.r[k]) * (p - x) * (p_old(i) - old);
+                    sum += 0.5 * f64::from(law.r[k]) * (p - x) * (p_old(here) - old);
                 }
             }
         }

@@ -67,16 +67,22 @@ impl Bed {
                 }
             }
         }
-        // The faces after a cell belong to the next one.
+        // The faces after a cell belong to the next one. One beside a wall or beyond the window weighs on the cell as the
+        // cell's own water: so a wall is a mirror in time as well.
         for j in widened(z, 2, nz) {
             for i in widened(x, 2, nx) {
                 let at = j * nx + i;
+                let own = self.table.at(self.depth[at]).s;
+                let sides = [
+                    (0, at, i > 0 && wet(at - 1)),
+                    (0, at + 1, i + 1 < nx && wet(at + 1)),
+                    (1, at, j > 0 && wet(at - nx)),
+                    (1, at + nx, j + 1 < nz && wet(at + nx)),
+                ];
                 for ((k, m), r) in self.m.iter_mut().enumerate().zip(r) {
-                    let [along, across] = [&self.faces[0][k + 1], &self.faces[1][k + 1]];
-                    let after = |faces: &Field, inside: bool, at: usize| if inside { faces[at] } else { 0.0 };
-                    let s = (along[at] + after(along, i + 1 < nx, at + 1))
-                        + (across[at] + after(across, j + 1 < nz, at + nx));
-                    m[at] = if open(at) { mobility(s, r) } else { 0.0 };
+                    let [west, east, south, north] =
+                        sides.map(|(axis, face, wet)| if wet { self.faces[axis][k + 1][face] } else { own[k] });
+                    m[at] = if open(at) { mobility((west + east) + (south + north), r) } else { 0.0 };
                 }
             }
         }
