@@ -5,7 +5,7 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::{DVec2, Vec2};
 use open_water_benches::fixtures::{self, Random};
-use wave_grid::{GridDesc, GridSample, Source, WaveGrid};
+use wave_grid::{GridDesc, GridSample, Scheme, Source, WaveGrid};
 
 /// A window full of waves.
 fn grid(desc: GridDesc) -> WaveGrid {
@@ -25,6 +25,10 @@ fn ticks(c: &mut Criterion) {
             let mut grid = grid(GridDesc { cells: [cells; 2], ..scene });
             group.bench_function(BenchmarkId::new(name, cells), |b| b.iter(|| grid.tick()));
         }
+    }
+    for cells in [256, 512] {
+        let mut grid = grid(GridDesc { cells: [cells; 2], scheme: Scheme::Dispersive, ..GridDesc::default() });
+        group.bench_function(BenchmarkId::new("dispersive", cells), |b| b.iter(|| grid.tick()));
     }
     let mut asleep = WaveGrid::new(fixtures::grid()).expect("the fixture is in bounds");
     group.bench_function("asleep", |b| b.iter(|| asleep.tick()));

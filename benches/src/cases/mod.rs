@@ -3,6 +3,10 @@
 mod body_float;
 mod dispersion;
 mod dispersive_choice;
+mod dispersive_shoal;
+mod dispersive_step;
+mod dispersive_walls;
+mod dispersive_waves;
 mod energy;
 mod facade;
 mod facade_grids;
@@ -63,6 +67,12 @@ pub const CASES: &[Case] = &[
     grid_wake::WEDGE,
     dispersion::DISPERSION,
     dispersive_choice::CHOICE,
+    dispersive_waves::WAVES,
+    dispersive_walls::WALL,
+    dispersive_walls::GAP,
+    dispersive_walls::ENERGY,
+    dispersive_shoal::SHOALING,
+    dispersive_step::STEP,
     grid_gap::DIFFRACTION,
     grid_border::PML,
     grid_moving::MOVING,
