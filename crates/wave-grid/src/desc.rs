@@ -122,6 +122,11 @@ impl Stepping {
         (self.a[1] / self.a[0]) as f32
     }
 
+    /// A tick in sub-steps times sqrt(a): of water waves, its length over sqrt(h / g).
+    pub(crate) fn root_time(&self) -> f64 {
+        f64::from(self.substeps) * self.a[0].sqrt()
+    }
+
     /// The `a` of square cells that are as close to the bound: the largest eigenvalue of the scheme is 4 at the bound.
     fn tightest(&self, scheme: Scheme) -> f64 {
         let [x, z] = self.a;

@@ -80,21 +80,27 @@ impl Fields {
         }
     }
 
-    /// Cell i takes what cell i + shift held; what enters is calm.
+    /// Cell i takes what cell i + shift held; what enters is calm, and so are the outermost cells but at the sides where the
+    /// layer is off.
     pub(crate) fn shift(&mut self, shift: [i64; 2]) {
+        let off = self.layer.as_ref().map_or([[false; 2]; 2], |layer| layer.sides.off());
         for field in self.all() {
             field.shift(shift);
-            // The outermost ring is zero.
-            let (nx, len) = (field.width(), field.len());
-            field[..nx].fill(0.0);
-            field[len - nx..].fill(0.0);
-            for row in field.chunks_exact_mut(nx) {
-                row[0] = 0.0;
-                row[nx - 1] = 0.0;
-            }
+            calm_edges(field, off);
         }
         if let Some(layer) = &mut self.layer {
             layer.memory.shift(shift);
+        }
+    }
+
+    /// The window moves with `velocity` for `time`: see [`Layer::move_with`].
+    pub(crate) fn move_with(&mut self, velocity: [f64; 2], time: f64) {
+        let Some(layer) = &mut self.layer else { return };
+        let before = layer.sides.off();
+        layer.move_with(velocity, time);
+        let off = layer.sides.off();
+        if off != before {
+            self.all().into_iter().for_each(|field| calm_edges(field, off));
         }
     }
 
@@ -105,5 +111,16 @@ impl Fields {
                 *value = if cells.is_open(at) { *value } else { 0.0 };
             }
         }
+    }
+}
+
+/// Zeroes the outermost cells of the sides where the layer is not off.
+fn calm_edges(field: &mut Field, [along, across]: [[bool; 2]; 2]) {
+    let (nx, len) = (field.width(), field.len());
+    for (row, _) in [0..nx, len - nx..len].into_iter().zip(across).filter(|(_, off)| !off) {
+        field[row].fill(0.0);
+    }
+    for (column, _) in [0, nx - 1].into_iter().zip(along).filter(|(_, off)| !off) {
+        field[column..].iter_mut().step_by(nx).for_each(|value| *value = 0.0);
     }
 }

@@ -6,7 +6,8 @@
 //! sigma = s0 d^3 and alpha = a0 (1 - d) at depth d (0 to 1) into the layer, per sub-step.
 //!
 //! A window that outruns its waves has them cross its rear side forwards, where the layer would make them grow. So a side
-//! is switched off as the window moves away from it.
+//! is switched off as the window moves away from it. Its outermost cells, zero elsewhere, then keep what the window leaves
+//! there: of a wake that is steady seen from the window, the right values.
 
 use std::ops::Range;
 
@@ -19,10 +20,11 @@ pub(crate) const SHIFT: f64 = 0.226;
 /// Speeds of the window away from a side, over sqrt(g h), where that begins to be switched off and where it is off: 1 and 2 m/s where
 /// cells are 0.5 m.
 const OFF: [f64; 2] = [0.45, 0.9];
+/// How fast a side comes back, times sqrt(h / g): in 8 s where cells are 0.5 m. What is within the layer by then would be reflected
+/// (-33 dB of a boat that stops, at once, and -47 so).
+const RETURN: f64 = 0.027;
 /// Fields that the layer has a memory for: the potential and the screened ones.
 pub(crate) const MEMORIES: usize = FIELDS + 1;
-/// A change of strength below this is none.
-const NEAR: f64 = 1e-3;
 
 /// Factors (b, c) along an axis: at nodes, and on the edge before each node.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +41,7 @@ pub(crate) struct Layer {
     cells: [usize; 2],
     width: usize,
     g: f64,
-    sides: Sides,
+    pub(crate) sides: Sides,
 }
 
 impl Layer {
@@ -49,9 +51,9 @@ impl Layer {
         Self { axes, memory: Memory::new(cells, width), cells, width, g, sides }
     }
 
-    /// The window moves with `velocity`, in cells per sub-step over sqrt(G).
-    pub(crate) fn move_with(&mut self, velocity: [f64; 2]) {
-        let changed = self.sides.move_with(velocity);
+    /// The window moves with `velocity`, in cells per sub-step over sqrt(G), for `time`, in sub-steps times sqrt(G).
+    pub(crate) fn move_with(&mut self, velocity: [f64; 2], time: f64) {
+        let changed = self.sides.move_with(velocity, time);
         for k in (0..2).filter(|k| changed[*k]) {
             self.axes[k] = axis(self.cells[k], self.width, self.g, self.sides.open[k]);
         }
@@ -72,18 +74,23 @@ impl Default for Sides {
 
 impl Sides {
     /// As [`Layer::move_with`]; which axes have changed.
-    pub(crate) fn move_with(&mut self, velocity: [f64; 2]) -> [bool; 2] {
+    pub(crate) fn move_with(&mut self, velocity: [f64; 2], time: f64) -> [bool; 2] {
         std::array::from_fn(|k| {
             let strength = |away: f64| ((OFF[1] - away) / (OFF[1] - OFF[0])).clamp(0.0, 1.0);
             // Away from the low side is towards high coordinates.
-            let open = [strength(velocity[k]), strength(-velocity[k])];
-            let differs = |(now, was): (&f64, &f64)| (now - was).abs() > NEAR || (*now != *was && *now % 1.0 == 0.0);
-            let changed = open.iter().zip(&self.open[k]).any(differs);
+            let wanted = [strength(velocity[k]), strength(-velocity[k])];
+            let open = std::array::from_fn(|side| wanted[side].min(self.open[k][side] + RETURN * time));
+            let changed = open != self.open[k];
             if changed {
                 self.open[k] = open;
             }
             changed
         })
+    }
+
+    /// Which are off.
+    pub(crate) fn off(&self) -> [[bool; 2]; 2] {
+        self.open.map(|sides| sides.map(|open| open == 0.0))
     }
 }
 

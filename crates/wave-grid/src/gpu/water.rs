@@ -149,7 +149,7 @@ impl Water {
         self.rows.follow(corner[1] as usize);
         let [slots_x, slots_z] = self.first_slots();
         let Law { c, r, s, m, g, damp } = self.law;
-        self.sides.move_with(self.drift.beta());
+        self.sides.move_with(self.drift.beta(), self.stepping.root_time());
         let [x, z] = self.sides.open;
         let peak = |open: f64| (STRENGTH * self.g.sqrt() * open) as f32;
         GridWater {

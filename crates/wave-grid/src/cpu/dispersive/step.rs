@@ -78,11 +78,30 @@ pub(crate) fn step(state: &mut State, fields: &mut Fields, tops: &mut [f32], set
     let tiles = setting.tiles;
     let pieces = if tiles.active >= PARALLEL_TILES { PIECES * rayon::current_num_threads() } else { 1 };
     walk(band, 0..tiles.count[1], pieces, &shared);
+    if let Some(layer) = &fields.layer {
+        let off = layer.sides.off();
+        leave(&fields.potential, &mut fields.potential_next, size, off);
+        for (now, next) in fields.screened.iter().zip(&mut fields.older) {
+            leave(now, next, size, off);
+        }
+    }
     std::mem::swap(&mut state.z, &mut state.old);
     std::mem::swap(&mut fields.potential, &mut fields.potential_next);
     std::mem::swap(&mut fields.screened, &mut fields.older);
     if let Border::Sponge { width } = setting.border {
         sponge::damp(state, fields, width as usize);
+    }
+}
+
+/// The outermost cells of the sides where the layer is off stay as they are.
+fn leave(now: &[f32], next: &mut [f32], [nx, nz]: [usize; 2], [along, across]: [[bool; 2]; 2]) {
+    for (column, _) in [0, nx - 1].into_iter().zip(along).filter(|(_, off)| *off) {
+        for at in (column..nx * nz).step_by(nx) {
+            next[at] = now[at];
+        }
+    }
+    for (row, _) in [0..nx, (nz - 1) * nx..nz * nx].into_iter().zip(across).filter(|(_, off)| *off) {
+        next[row.clone()].copy_from_slice(&now[row]);
     }
 }
 
