@@ -74,7 +74,7 @@ fn grid_water_prepare(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_in
     let row_held = (*grid).moved == SHIFTED && at.j < cells.y && was_row >= 0 && was_row < i32(cells.y);
     let held = (at.i < vec4<u32>(cells.x)) & (was >= vec4<i32>(0)) & (was < vec4<i32>(i32(cells.x))) & vec4<bool>(row_held);
     let inner = held & (at.i > vec4<u32>(0u)) & (at.i < vec4<u32>(cells.x - 1u)) & vec4<bool>(at.j > 0u && at.j < cells.y - 1u);
-    let open = (inner | stood) & vec4<bool>(!ending);
+    let open = (inner | (held & stays(at.i, at.j, cells, (*water).kept)) | stood) & vec4<bool>(!ending);
     var now = select(vec4<f32>(0.0), grid_heights[now_at], inner | stood);
     var old = select(vec4<f32>(0.0), grid_heights[old_at], inner | stood);
     var foam = select(vec4<f32>(0.0), grid_heights[foam_at], held | stood);

@@ -128,11 +128,13 @@ fn grid_water_step(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invoc
         let to_a = advance(
             water, z.c.a.here, Fields(p.c.a.here, x1.c.a.here, x2.c.a.here, x3.c.a.here),
             Fields(none, grid_memory[next.y + at], grid_fields[next.z + at], grid_fields[next.w + at]),
-            Fields(flow_p.a, flow_1.a, flow_2.a, flow_3.a), bed.m_a, bed.damp.a, open_a);
+            Fields(flow_p.a, flow_1.a, flow_2.a, flow_3.a), bed.m_a, bed.damp.a, open_a,
+            stays(i_a, j, grid.cells, water.left));
         let to_b = advance(
             water, z.c.b.here, Fields(p.c.b.here, x1.c.b.here, x2.c.b.here, x3.c.b.here),
             Fields(none, grid_memory[next.y + at + 1u], grid_fields[next.z + at + 1u], grid_fields[next.w + at + 1u]),
-            Fields(flow_p.b, flow_1.b, flow_2.b, flow_3.b), bed.m_b, bed.damp.b, open_b);
+            Fields(flow_p.b, flow_1.b, flow_2.b, flow_3.b), bed.m_b, bed.damp.b, open_b,
+            stays(i_b, j, grid.cells, water.left));
         if keeps {
             grid_heights[heights + 2u * stride + at] = z.c.a.here;
             grid_heights[heights + 2u * stride + at + 1u] = z.c.b.here;

@@ -59,8 +59,8 @@ impl WaveGrid {
             self.carrier = Some(Carrier::new([self.state.nx, self.state.nz], self.profile.thickness));
         }
         self.tops.resize(self.tiles.tiles.len(), 0.0);
-        if let Some(fields) = &mut self.fields {
-            fields.move_with(self.drift.beta(), self.stepping.root_time());
+        if let Some(layer) = self.fields.as_mut().and_then(|fields| fields.layer.as_mut()) {
+            layer.move_with(self.drift.beta(), self.stepping.root_time());
         }
         let moves = self.moving
             && self.desc.scheme.is_wave_equation()

@@ -62,8 +62,10 @@ pub struct GridWater {
     pub width: u32,
     /// The layer's shift of frequencies at its inner side, times dt.
     pub alpha: f32,
-    /// Padding.
-    pub pad: [u32; 2],
+    /// Sides whose outermost cells keep their fields in a sub-step: bit k, sides as of `peaks`.
+    pub left: u32,
+    /// Those that keep them as the window shifts.
+    pub kept: u32,
 }
 
 /// At the places of [`super::TickParams`].
@@ -102,7 +104,7 @@ pub(super) fn constants() -> String {
 
 const WATER_SHARED: &str = include_str!("../../wgsl/shared/grid_water.wgsl");
 const GRID_WATER: crate::ParamLayout =
-    param_layout!(GridWater { shares, rates, gains, peaks, fields, slots_x, slots_z, faces, width, alpha, pad });
+    param_layout!(GridWater { shares, rates, gains, peaks, fields, slots_x, slots_z, faces, width, alpha, left, kept });
 
 /// Stores the medium of listed cells, and stills those that are not open water.
 pub const WATER_MEDIUM: Pass = Pass {

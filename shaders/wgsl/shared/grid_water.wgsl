@@ -17,8 +17,9 @@ struct GridWater {
     // Cells of the layer, and its shift of frequencies at the inner side times dt.
     width: u32,
     alpha: f32,
-    pad_x: u32,
-    pad_y: u32,
+    // Sides whose outermost cells keep what they hold, bit k as of peaks: in a sub-step, and as the window shifts.
+    left: u32,
+    kept: u32,
 }
 
 @group(1) @binding(0) var<uniform> grid_water: array<GridWater, MAX_GRIDS>;
@@ -27,6 +28,18 @@ struct GridWater {
 @group(1) @binding(1) var<storage, read_write> grid_fields: array<vec4<f32>>;
 // Per grid c, s_1, s_2, s_3 of the face before each cell along x, then along z.
 @group(1) @binding(2) var<storage, read_write> grid_faces: array<vec4<f32>>;
+
+// Whether cells are outermost ones of such sides only.
+fn stays(i: vec4<u32>, j: u32, cells: vec2<u32>, sides: u32) -> vec4<bool> {
+    let low = i == vec4<u32>(0u);
+    let high = i + 1u == vec4<u32>(cells.x);
+    let south = j == 0u;
+    let north = j + 1u == cells.y;
+    let off = (vec4<u32>(sides) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u);
+    let on = (low & vec4<bool>(!off.x)) | (high & vec4<bool>(!off.y)) | vec4<bool>(south && !off.z) | vec4<bool>(north && !off.w);
+    let inside = (i < vec4<u32>(cells.x)) & vec4<bool>(j < cells.y);
+    return inside & (low | high | vec4<bool>(south || north)) & !on;
+}
 
 // First vec4 of a tile's slots along x and z, NO_SLOT outside the layer.
 fn slots_of(grid: GridParams, water: GridWater, tile: u32, flags: u32) -> vec2<u32> {

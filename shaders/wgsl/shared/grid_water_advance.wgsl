@@ -50,17 +50,20 @@ struct Next {
     u: Fields,
 }
 
-fn advance(water: GridWater, z: vec4<f32>, u: Fields, old: Fields, flow: Fields, m: Fields, damp: vec4<f32>, open: vec4<bool>) -> Next {
+// `stays` tells which cells keep the fields they have.
+fn advance(
+    water: GridWater, z: vec4<f32>, u: Fields, old: Fields, flow: Fields, m: Fields, damp: vec4<f32>, open: vec4<bool>, stays: vec4<bool>,
+) -> Next {
     let none = vec4<f32>(0.0);
     let pull_1 = water.rates.y * (u.p - u.x1);
     let pull_2 = water.rates.z * (u.p - u.x2);
     let pull_3 = water.rates.w * (u.p - u.x3);
     var next: Next;
     next.z = select(none, flush(z - (flow.p - pull_1 - pull_2 - pull_3)), open);
-    next.u.p = select(none, flush((2.0 * damp - 1.0) * u.p - damp * water.rates.x * next.z), open);
-    next.u.x1 = select(none, flush(2.0 * u.x1 - old.x1 + m.x1 * (flow.x1 + pull_1)), open);
-    next.u.x2 = select(none, flush(2.0 * u.x2 - old.x2 + m.x2 * (flow.x2 + pull_2)), open);
-    next.u.x3 = select(none, flush(2.0 * u.x3 - old.x3 + m.x3 * (flow.x3 + pull_3)), open);
+    next.u.p = select(select(none, u.p, stays), flush((2.0 * damp - 1.0) * u.p - damp * water.rates.x * next.z), open);
+    next.u.x1 = select(select(none, u.x1, stays), flush(2.0 * u.x1 - old.x1 + m.x1 * (flow.x1 + pull_1)), open);
+    next.u.x2 = select(select(none, u.x2, stays), flush(2.0 * u.x2 - old.x2 + m.x2 * (flow.x2 + pull_2)), open);
+    next.u.x3 = select(select(none, u.x3, stays), flush(2.0 * u.x3 - old.x3 + m.x3 * (flow.x3 + pull_3)), open);
     return next;
 }
 

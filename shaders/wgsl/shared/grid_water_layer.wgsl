@@ -18,7 +18,9 @@ fn damp(x: vec4<f32>, n: u32, peak: vec2<f32>, water: GridWater) -> Damp {
     let sum = sigma + water.alpha * (1.0 - max(low, high));
     let keep = exp(-sum);
     let inside = sigma > none;
-    let gain = sigma / max(sum, vec4<f32>(1e-30)) * (keep - 1.0);
+    // 1 - keep over the sum, by its series where the difference would cancel.
+    let series = 1.0 - sum * (1.0 / 2.0 - sum * (1.0 / 6.0 - sum * (1.0 / 24.0 - sum * (1.0 / 120.0 - sum / 720.0))));
+    let gain = -sigma * select((1.0 - keep) / max(sum, vec4<f32>(0.1)), series, sum < vec4<f32>(0.3));
     return Damp(select(none, keep, inside), select(none, gain, inside));
 }
 

@@ -86,21 +86,11 @@ impl Fields {
         let off = self.layer.as_ref().map_or([[false; 2]; 2], |layer| layer.sides.off());
         for field in self.all() {
             field.shift(shift);
-            calm_edges(field, off);
+            let size = [field.width(), field.len() / field.width()];
+            calm_edges(field, size, off);
         }
         if let Some(layer) = &mut self.layer {
             layer.memory.shift(shift);
-        }
-    }
-
-    /// The window moves with `velocity` for `time`: see [`Layer::move_with`].
-    pub(crate) fn move_with(&mut self, velocity: [f64; 2], time: f64) {
-        let Some(layer) = &mut self.layer else { return };
-        let before = layer.sides.off();
-        layer.move_with(velocity, time);
-        let off = layer.sides.off();
-        if off != before {
-            self.all().into_iter().for_each(|field| calm_edges(field, off));
         }
     }
 
@@ -115,9 +105,8 @@ impl Fields {
 }
 
 /// Zeroes the outermost cells of the sides where the layer is not off.
-fn calm_edges(field: &mut Field, [along, across]: [[bool; 2]; 2]) {
-    let (nx, len) = (field.width(), field.len());
-    for (row, _) in [0..nx, len - nx..len].into_iter().zip(across).filter(|(_, off)| !off) {
+pub(crate) fn calm_edges(field: &mut [f32], [nx, nz]: [usize; 2], [along, across]: [[bool; 2]; 2]) {
+    for (row, _) in [0..nx, (nz - 1) * nx..nz * nx].into_iter().zip(across).filter(|(_, off)| !off) {
         field[row].fill(0.0);
     }
     for (column, _) in [0, nx - 1].into_iter().zip(along).filter(|(_, off)| !off) {

@@ -88,6 +88,8 @@ pub(super) struct Water {
     drift: Drift,
     sides: Sides,
     g: f64,
+    /// A tick over sqrt(h / g).
+    time: f64,
     /// `vec4`s of one array.
     stride: u32,
 }
@@ -109,6 +111,7 @@ impl Water {
             drift: Drift::default(),
             sides: Sides::default(),
             g: stepping.a[0],
+            time: stepping.root_time(),
             stride: (torus[0] * torus[1] / 4) as u32,
         })
     }
@@ -149,7 +152,12 @@ impl Water {
         self.rows.follow(corner[1] as usize);
         let [slots_x, slots_z] = self.first_slots();
         let Law { c, r, s, m, g, damp } = self.law;
-        self.sides.move_with(self.drift.beta(), self.stepping.root_time());
+        // The CPU's window shifts before its sides follow.
+        let before = self.sides.off();
+        self.sides.move_with(self.drift.beta(), self.time);
+        let off = self.sides.off();
+        let bits =
+            |off: [[bool; 2]; 2]| off.as_flattened().iter().rev().fold(0, |bits, off| 2 * bits + u32::from(*off));
         let [x, z] = self.sides.open;
         let peak = |open: f64| (STRENGTH * self.g.sqrt() * open) as f32;
         GridWater {
@@ -163,7 +171,8 @@ impl Water {
             faces: self.bases.faces,
             width,
             alpha: (SHIFT * self.g.sqrt()) as f32,
-            pad: [0; 2],
+            left: bits(off),
+            kept: bits(before),
         }
     }
 

@@ -12,6 +12,7 @@ use crate::Border;
 use crate::cpu::step::Keep;
 use crate::cpu::tiles::{Class, Mode, Tile, Tiles};
 use crate::desc::MOST_CELLS;
+use crate::dispersive::fields::calm_edges;
 use crate::dispersive::layer::{Axis, MEMORIES};
 use crate::dispersive::{Bed, FIELDS, Fields, Law};
 use crate::ground::Cells;
@@ -93,8 +94,9 @@ pub(crate) fn step(state: &mut State, fields: &mut Fields, tops: &mut [f32], set
     }
 }
 
-/// The outermost cells of the sides where the layer is off stay as they are.
-fn leave(now: &[f32], next: &mut [f32], [nx, nz]: [usize; 2], [along, across]: [[bool; 2]; 2]) {
+/// The outermost cells of the sides where the layer is off stay as they are, the others are zero.
+fn leave(now: &[f32], next: &mut [f32], [nx, nz]: [usize; 2], off: [[bool; 2]; 2]) {
+    let [along, across] = off;
     for (column, _) in [0, nx - 1].into_iter().zip(along).filter(|(_, off)| *off) {
         for at in (column..nx * nz).step_by(nx) {
             next[at] = now[at];
@@ -103,6 +105,7 @@ fn leave(now: &[f32], next: &mut [f32], [nx, nz]: [usize; 2], [along, across]: [
     for (row, _) in [0..nx, (nz - 1) * nx..nz * nx].into_iter().zip(across).filter(|(_, off)| *off) {
         next[row.clone()].copy_from_slice(&now[row]);
     }
+    calm_edges(next, [nx, nz], off);
 }
 
 /// Halves the rows of tiles over rayon's threads. Rows do not depend on each other, so neither do the bits.
