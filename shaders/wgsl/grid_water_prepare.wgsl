@@ -21,32 +21,32 @@ fn keep_field(at: u32, keep: vec4<bool>) {
 
 // Forgets what the layer remembers where cells entered the window, and of edges and cells that no step reads: what stands in
 // the outermost cells would come back. `open` tells that a cell is not one of these along an axis, `nodes` that it is none
-// and was none.
+// and was none; what was remembered of the edges at the window's ends is of cells beside on the torus, not in the window.
 fn keep_slots(
     slots: vec2<u32>, local: u32, held: vec4<bool>, nodes: vec4<bool>, open_x: vec4<bool>, open_z: bool,
-    first: vec4<bool>, first_z: bool, last_z: bool,
+    first: vec4<bool>, first_z: bool, last_z: bool, was: vec4<i32>, was_z: i32, cells: vec2<u32>,
 ) {
     let row = local / (TILE / 4u);
     if slots.x != NO_SLOT {
         for (var k = 0u; k < FIELDS; k++) {
-            keep_field(slots.x + k * TILE_THREADS + local, held & !first & vec4<bool>(open_z));
+            keep_field(slots.x + k * TILE_THREADS + local, held & !first & (was > vec4<i32>(0)) & vec4<bool>(open_z));
             keep_field(slots.x + (FIELDS + k) * TILE_THREADS + local, nodes);
         }
         if local % 2u == 1u {
             // The edge after a cell, which for the window's last there is not.
-            let after = held.w && (open_x.w || first.w) && open_z;
+            let after = held.w && (open_x.w || first.w) && open_z && was.w + 1 < i32(cells.x);
             keep_field(slots.x + 2u * FIELDS * TILE_THREADS + local / 2u, vec4<bool>(after));
         }
     }
     if slots.y != NO_SLOT {
         for (var k = 0u; k < FIELDS; k++) {
-            keep_field(slots.y + k * TILE_THREADS + local, held & open_x & vec4<bool>(!first_z));
+            keep_field(slots.y + k * TILE_THREADS + local, held & open_x & vec4<bool>(!first_z && was_z > 0));
             keep_field(slots.y + (FIELDS + k) * TILE_THREADS + local, nodes);
         }
         if (row + 1u) % ROWS == 0u {
             let beyond = slots.y + 2u * FIELDS * TILE_THREADS + row / ROWS * FIELDS * (TILE / 4u) + local % (TILE / 4u);
             for (var k = 0u; k < FIELDS; k++) {
-                keep_field(beyond + k * (TILE / 4u), held & open_x & vec4<bool>(!last_z));
+                keep_field(beyond + k * (TILE / 4u), held & open_x & vec4<bool>(!last_z && was_z + 1 < i32(cells.y)));
             }
         }
     }
@@ -88,7 +88,8 @@ fn grid_water_prepare(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_in
         let open_z = at.j > 0u && at.j < cells.y - 1u;
         let slots = slots_of(*grid, *water, tile, entry.w);
         let was_open = (was > vec4<i32>(0)) & (was < vec4<i32>(i32(cells.x) - 1)) & vec4<bool>(was_row > 0 && was_row < i32(cells.y) - 1);
-        keep_slots(slots, local, held, inner & was_open, open_x, open_z, at.i == vec4<u32>(0u), at.j == 0u, at.j == cells.y - 1u);
+        keep_slots(slots, local, held, inner & was_open, open_x, open_z, at.i == vec4<u32>(0u), at.j == 0u, at.j == cells.y - 1u,
+            was, was_row, cells);
     }
     grid_heights[first + 2u * stride] = select(now, vec4<f32>(0.0), ending);
 
