@@ -68,7 +68,8 @@ fn ticks(effort: Effort, threads: u32) -> Result<Vec<Row>, CaseError> {
         "ratio",
         "the least that a spectral step takes: one packed transform there and back, rustfft",
     );
-    Ok(vec![five.bound(3.0), nine, exact.bound(1.0 / 15.0)])
+    // Against a step that becomes slow, with room for a busy machine.
+    Ok(vec![five.bound(6.0), nine, exact.bound(0.6)])
 }
 
 /// Height and potential packed into one complex field, transformed there and back: rows, transposition, rows.
