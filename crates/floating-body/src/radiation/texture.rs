@@ -67,6 +67,8 @@ const REACH: f64 = 5.0;
 const SHALLOWEST: f64 = 1.0;
 /// Those of the hull, which moves over the cells.
 const HULL: f32 = 1.0;
+/// And those shallower than this share of their column's half width, so that a hull makes one wave and not one a column.
+const SMOOTH: f32 = 1.2;
 /// Places along the hull by its slenderness, at most.
 const MOST: f64 = 8.0;
 /// Share of the waterplane's second moments that the places have: kernels widen them, and a hull's ends radiate less.
@@ -179,7 +181,7 @@ fn hull(a: &Afloat, cell: f32) -> Vec<TextureKernel> {
             let depth = top + (bottom - top) * (f32::from(layer) + 0.5) / f32::from(LAYERS);
             kernels.push(TextureKernel {
                 offset: Vec2::new(point.position.x, point.position.z),
-                depth: depth.max(HULL * cell),
+                depth: depth.max(HULL * cell).max(SMOOTH * point.half.x.max(point.half.z)),
                 weight: point.volume * share / f32::from(LAYERS),
             });
         }
