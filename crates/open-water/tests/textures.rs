@@ -3,8 +3,8 @@
 use floating_body::{Body, Drag};
 use glam::{Quat, Vec3};
 use open_water::{
-    BodyDesc, BodyId, BodyState, BodyStates, Border, Follow, GridDesc, Hull, OpenWater, OpenWaterDesc, Preset,
-    Radiation, Scheme,
+    BodyDesc, BodyId, BodyState, BodyStates, Border, Closure, Follow, GridDesc, Hull, OpenWater, OpenWaterDesc, Preset,
+    Radiation, Scheme, TriMesh,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -146,9 +146,30 @@ fn a_body_adrift_in_its_own_waves_comes_to_rest() {
     assert!(most < 0.62 && late < 0.06, "{most} then {late}");
 }
 
+/// A hull of 10 x 3 m with parabolic waterlines and sections and walls above the water, 7.5 t.
+fn launch() -> BodyDesc {
+    let (along, across) = (12u32, 6u32);
+    let mut vertices = Vec::new();
+    for i in 0..=along {
+        let x = 2.0 * i as f32 / along as f32 - 1.0;
+        let half = (1.0 - x * x).max(0.02);
+        for j in 0..=across {
+            let z = 2.0 * j as f32 / across as f32 - 1.0;
+            vertices.push(Vec3::new(5.0 * x, -0.75 * (1.0 - z * z) * half.sqrt(), 1.5 * z * half));
+        }
+        vertices.extend([-1.5, 1.5].map(|z| Vec3::new(5.0 * x, 0.75, z * half)));
+    }
+    let indices = (0..vertices.len() as u32 - 2).flat_map(|i| [i, i + 1, i + 2]).collect();
+    let hull = Hull::from_mesh(&TriMesh { vertices, indices }, Closure::ConvexHull).unwrap();
+    let mut desc = BodyDesc::from_hull(&hull, 7.5e3);
+    desc.center_of_mass.y = 0.0;
+    desc.estimate();
+    BodyDesc { radiation: Radiation::Grid, ..desc }
+}
+
 #[test]
 fn a_hull_under_way_sinks_and_its_wake_does_not_lift_the_stern() {
-    let mut tank = tank(barge(), Scheme::Dispersive, |body| BodyState::at_rest(Vec3::Y * body.rest_height()));
+    let mut tank = tank(launch(), Scheme::Dispersive, |body| BodyState::at_rest(Vec3::Y * body.rest_height()));
     let rest = tank.water.body(tank.body).unwrap().rest_height();
     let (mut sinkage, mut bow) = (0.0f32, 0.0f32);
     for tick in 0..60 * 16 {
@@ -161,6 +182,6 @@ fn a_hull_under_way_sinks_and_its_wake_does_not_lift_the_stern() {
             bow += (state.orientation * Vec3::X).y / 240.0;
         }
     }
-    assert!(sinkage > 0.005 && sinkage < 0.2, "{sinkage} m");
-    assert!(bow > -0.002 && bow < 0.1, "{bow}");
+    assert!(sinkage > 0.005 && sinkage < 0.3, "{sinkage} m");
+    assert!(bow > 0.0 && bow < 0.1, "{bow}");
 }
