@@ -100,18 +100,19 @@ impl Scene for Boat {
         let mut states = BodyStates::default();
         states.insert(boat, start);
         let grid = GridDesc { follow: Follow::Body(boat), ..options.preset().grid() };
-        let wake = if grid.scheme == Scheme::Dispersive {
+        let (mut cells, mut within) = (grid.cells, None);
+        if grid.scheme == Scheme::Dispersive {
             // Fine cells around the boat, and twice as large ones for three times as far.
             let far = GridDesc { cell_size: grid.cell_size.map(|h| 2.0 * h), ..grid.clone() };
-            let (cells, within) = (grid.cells.map(|n| n * 2 / 3), Some(water.add_grid(far)?));
-            water.add_grid(GridDesc { cells, within, ..grid })?
-        } else {
-            water.add_grid(grid)?
-        };
+            (cells, within) = (cells.map(|n| n * 2 / 3), Some(water.add_grid(far)?));
+        }
+        let wake = water.add_grid(GridDesc { cells, within, ..grid })?;
+        let mut launch = Launch::new(boat, Some(wake), hull.bounds());
+        launch.far = within;
         let mut scene = Self {
             water,
             states,
-            boat: Launch::new(boat, Some(wake), hull.bounds()),
+            boat: launch,
             hull,
             waterline,
             fittings: setup.own_hull,

@@ -13,16 +13,18 @@ pub struct Launch {
     pub body: BodyId,
     /// The grid that moves with it; none when moored.
     pub wake: Option<GridId>,
+    /// The coarser grid that it lies in, if any.
+    pub far: Option<GridId>,
     /// Corners of its hull's bounding box, hull frame, metres.
     pub bounds: (Vec3, Vec3),
-    /// Drawn (height, foam) of the wake's grid, for the view from above.
-    cells: Vec<[f32; 2]>,
+    /// Drawn (height, foam) of both, for the view from above.
+    cells: [Vec<[f32; 2]>; 2],
 }
 
 impl Launch {
     /// A boat.
     pub fn new(body: BodyId, wake: Option<GridId>, bounds: (Vec3, Vec3)) -> Self {
-        Self { body, wake, bounds, cells: Vec::new() }
+        Self { body, wake, far: None, bounds, cells: Default::default() }
     }
 
     /// Its hull at `pose`, in which no water shows.
@@ -39,22 +41,18 @@ impl Launch {
 
     /// Gets ready for [`Self::foam`].
     pub fn look_down(&mut self, water: &OpenWater) {
-        if let Some(Ok(Some(grid))) = self.wake.map(|wake| water.grid(wake)) {
-            let [nx, nz] = grid.desc().cells;
-            self.cells.resize((nx * nz) as usize, [0.0; 2]);
-            grid.draw(1.0, &mut self.cells);
+        for (grid, cells) in [self.wake, self.far].into_iter().zip(&mut self.cells) {
+            if let Some(Ok(Some(grid))) = grid.map(|grid| water.grid(grid)) {
+                let [nx, nz] = grid.desc().cells;
+                cells.resize((nx * nz) as usize, [0.0; 2]);
+                grid.draw(1.0, cells);
+            }
         }
     }
 
     /// Foam of its wake at a place, 0 to 1.
     pub fn foam(&self, water: &OpenWater, at: Vec2) -> f32 {
-        let Some(Ok(Some(grid))) = self.wake.map(|wake| water.grid(wake)) else { return 0.0 };
-        let desc = grid.desc();
-        let cell = (at - grid.window().local_corner(DVec2::ZERO)) / Vec2::from(desc.cell_size);
-        let inside = cell.cmpge(Vec2::ZERO).all() && cell.x < desc.cells[0] as f32 && cell.y < desc.cells[1] as f32;
-        let index = cell.y as usize * desc.cells[0] as usize + cell.x as usize;
-        let fade = grid.fade_at(at.as_dvec2());
-        if inside { self.cells.get(index).map_or(0.0, |cell| fade * cell[1]) } else { 0.0 }
+        [self.wake, self.far].into_iter().zip(&self.cells).map(|(grid, cells)| foam(water, grid, cells, at)).sum()
     }
 
     /// Its outline from above at `pose`.
@@ -72,6 +70,16 @@ impl Launch {
         ];
         Mark::of(pose, &shape, [235, 235, 230])
     }
+}
+
+/// Foam of a grid whose drawn cells are these, at a place, 0 to 1.
+fn foam(water: &OpenWater, grid: Option<GridId>, cells: &[[f32; 2]], at: Vec2) -> f32 {
+    let Some(Ok(Some(grid))) = grid.map(|grid| water.grid(grid)) else { return 0.0 };
+    let desc = grid.desc();
+    let cell = (at - grid.window().local_corner(DVec2::ZERO)) / Vec2::from(desc.cell_size);
+    let inside = cell.cmpge(Vec2::ZERO).all() && cell.x < desc.cells[0] as f32 && cell.y < desc.cells[1] as f32;
+    let index = cell.y as usize * desc.cells[0] as usize + cell.x as usize;
+    if inside { cells.get(index).map_or(0.0, |cell| cell[1]) } else { 0.0 }
 }
 
 /// A closed course from mark to mark.
