@@ -98,13 +98,13 @@ fn coast(coast: Coast, path: &Path) -> Result<(), Box<dyn Error>> {
 enum Reach {
     /// A wall.
     Quay,
-    /// A bank that rises from 10 m to .4 m below the surface.
+    /// A bank that rises from 10 m to 1 m below the surface.
     Bank,
 }
 
 impl Reach {
     fn is_wall(self, place: DVec2) -> bool {
-        self == Reach::Quay && place.y < -28.0
+        self == Reach::Quay && place.y < -16.0
     }
 }
 
@@ -114,8 +114,8 @@ impl Medium for Reach {
             let kind = if self.is_wall(place) { CellKind::Wall } else { CellKind::Open };
             return MediumCell { kind, ..MediumCell::default() };
         }
-        let top = (-place.distance_squared(DVec2::new(-14.0, -20.0)) / 150.0).exp() as f32;
-        MediumCell { depth: 10.0 - 9.6 * top, ..MediumCell::default() }
+        let top = (-place.distance_squared(DVec2::new(0.0, -24.0)) / 250.0).exp() as f32;
+        MediumCell { depth: 10.0 - 9.0 * top, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {

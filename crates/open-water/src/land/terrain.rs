@@ -195,11 +195,11 @@ mod tests {
         assert_eq!(kind(201.0, 20.0), CellKind::Wall);
         assert!(terrain.at(DVec2::new(196.0, 20.0), 8.0).damping > 0.5);
         assert_eq!(terrain.at(DVec2::new(100.0, 20.0), 8.0).damping, 0.0);
-        assert!((terrain.at(DVec2::new(50.0, 24.0), 8.0).depth - 15.2).abs() < 1e-4);
+        assert!((terrain.at(DVec2::new(50.0, 24.0), 8.0).depth - 15.0).abs() < 1e-4);
         // A tide of one metre floods ten metres of the beach.
         let flooded = terrain.at_level(1.0);
         assert_eq!(flooded.at(DVec2::new(201.0, 20.0), 8.0).kind, CellKind::Open);
-        assert!((flooded.at(DVec2::new(50.0, 24.0), 8.0).depth - 16.2).abs() < 1e-4);
+        assert!((flooded.at(DVec2::new(50.0, 24.0), 8.0).depth - 16.0).abs() < 1e-4);
         assert!(!terrain.is_wet(DVec2::new(201.0, 20.0)) && flooded.is_wet(DVec2::new(201.0, 20.0)));
     }
 
@@ -211,7 +211,7 @@ mod tests {
         assert!(!plain([-50.0, -50.0], [20.0, 50.0], 8.0), "the bed is felt");
         assert!(!plain([-50.0, -50.0], [45.0, 50.0], 1.0), "an obstacle");
         assert!(!plain([90.0, 20.0], [210.0, 40.0], 1.0), "the beach");
-        // The bed is 17.8 m deep at x = 22.
+        // The bed is 18 m deep at x = 20.
         let deep = |high: [f64; 2], depth| terrain.is_deep([-50.0, -50.0].into(), high.into(), depth);
         assert!(deep([20.0, 50.0], 17.0) && !deep([20.0, 50.0], 19.0) && !deep([45.0, 50.0], 1.0));
         assert!(terrain.at_level(2.0).is_deep([-50.0, -50.0].into(), [20.0, 50.0].into(), 19.0));
