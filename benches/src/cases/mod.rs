@@ -15,6 +15,7 @@ mod grid_current;
 mod grid_edges;
 mod grid_gap;
 mod grid_gpu;
+mod grid_gpu_dispersive;
 mod grid_gpu_error;
 mod grid_gpu_plain;
 mod grid_medium;
@@ -82,6 +83,8 @@ pub const CASES: &[Case] = &[
     grid_step::STEP,
     grid_tiles::TILES,
     grid_gpu_error::ERROR,
+    grid_gpu_dispersive::ERROR,
+    grid_gpu_dispersive::COST,
     grid_gpu::STEP,
     grid_gpu::TICK,
     grid_gpu::ACTIVE,
