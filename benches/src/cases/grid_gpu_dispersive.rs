@@ -120,7 +120,7 @@ fn awake(gpu: &Gpu, cells: u32, scheme: Scheme, substeps: u32) -> Result<(GpuGri
         let center = 0.5 * (Vec2::new(middle(k % tiles), middle(k / tiles)) - cells as f32 / 2.0);
         grids.add(id, Source::Displacement { center, radius: 3.5, volume: 5.0 });
     }
-    for _ in 0..60 {
+    for _ in 0..4 {
         run_ticks(gpu, &mut grids, 1)?;
     }
     Ok((grids, id))
