@@ -2,6 +2,7 @@
 
 mod body_float;
 mod dispersion;
+mod dispersive_border;
 mod dispersive_choice;
 mod dispersive_shoal;
 mod dispersive_step;
@@ -73,6 +74,8 @@ pub const CASES: &[Case] = &[
     dispersive_walls::GAP,
     dispersive_walls::ENERGY,
     dispersive_shoal::SHOALING,
+    dispersive_border::STANDING,
+    dispersive_border::MOVING,
     dispersive_step::STEP,
     grid_gap::DIFFRACTION,
     grid_border::PML,

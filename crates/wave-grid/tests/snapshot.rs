@@ -79,7 +79,7 @@ fn action() -> impl Strategy<Value = Action> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
-    fn any_walk_through_snapshots_is_a_straight_run(actions in prop::collection::vec(action(), 1..24), which in 0usize..6) {
+    fn any_walk_through_snapshots_is_a_straight_run(actions in prop::collection::vec(action(), 1..24), which in 0usize..8) {
         let start = scenario::grids().swap_remove(which);
         let mut grid = start.clone();
         let mut slots: [(GridSnapshot, Vec<u32>); 3] = std::array::from_fn(|_| (grid.snapshot(), Vec::new()));

@@ -19,11 +19,16 @@ impl Medium for Harbour {
         let slow = ((x - 10.0) / 60.0).clamp(0.0, 0.6) as f32;
         let damping = if z > 20.0 && x > 10.0 { 1.5 } else { 0.0 };
         let current = if z < -20.0 { Vec2::new(1.5, -0.5) } else { Vec2::ZERO };
-        MediumCell { speed: deep_speed * (1.0 - slow), damping, kind, current, ..MediumCell::default() }
+        let depth = if x < 10.0 { f32::INFINITY } else { 30.0 * (1.0 - slow) };
+        MediumCell { speed: deep_speed * (1.0 - slow), damping, kind, current, depth }
     }
 
     fn is_plain(&self, _: DVec2, high: DVec2, _: f32) -> bool {
         high.x < 10.0
+    }
+
+    fn is_deep(&self, low: DVec2, high: DVec2, _: f32) -> bool {
+        self.is_plain(low, high, 0.0)
     }
 }
 
@@ -43,13 +48,14 @@ pub(crate) fn disturb(grid: &mut WaveGrid, t: u32, active: u32) {
     }
 }
 
-/// Grids of both schemes, with one and several sub-steps and with oblong cells; without a medium and with one.
+/// Grids of the wave equation's schemes and of water waves, with one and several sub-steps and with oblong cells; without a medium and with one.
 pub(crate) fn grids() -> Vec<WaveGrid> {
     let nine = GridDesc { cells: [176, 144], wave_speed: 25.0, ..Default::default() };
     let five = GridDesc { scheme: Scheme::FivePoint, damping: 0.2, wave_speed: 40.0, ..nine };
     let oblong = GridDesc { cells: [150, 101], cell_size: [0.7, 0.5], ..nine };
     let mut grids = Vec::new();
-    for desc in [nine, five, oblong] {
+    let water = GridDesc { scheme: Scheme::Dispersive, cells: [144, 127], substeps: Some(2), ..Default::default() };
+    for desc in [nine, five, oblong, water] {
         for medium in [false, true] {
             let mut grid = WaveGrid::new(desc).unwrap();
             grid.set_medium(medium.then(|| Arc::new(Harbour) as Arc<dyn Medium>));
