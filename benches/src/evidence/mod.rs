@@ -11,7 +11,7 @@ mod timing;
 
 pub use context::{Context, Gpu};
 pub use machine::{Adapter, Machine};
-pub use plot::{Axis, Plot, draw};
+pub use plot::{Axis, Plot, draw, picture};
 pub use report::{Report, Row, SCHEMA};
 pub use table::table;
 pub use timing::{Effort, Timing, fastest, measure, measure_together};

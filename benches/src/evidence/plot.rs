@@ -149,6 +149,19 @@ pub fn draw(plot: &Plot, rows: &[&Row], path: &Path) -> Result<bool, String> {
     Ok(true)
 }
 
+/// Writes a picture, pixel by pixel.
+pub fn picture(path: &Path, size: [usize; 2], color: impl Fn(usize, usize) -> [u8; 3]) -> Result<(), String> {
+    let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    let root = BitMapBackend::new(path, (size[0] as u32, size[1] as u32)).into_drawing_area();
+    for y in 0..size[1] {
+        for x in 0..size[0] {
+            let [r, g, b] = color(x, y);
+            root.draw_pixel((x as i32, y as i32), &RGBColor(r, g, b)).map_err(|error| failed(&error))?;
+        }
+    }
+    root.present().map_err(|error| failed(&error))
+}
+
 fn paint(
     plot: &Plot,
     rows: &[&Row],

@@ -26,7 +26,8 @@ impl WaveGrid {
 
     /// Sets the heights now and one sub-step ago (cells as [`Self::heights`]), still foam, no memory in the border.
     /// Values that are not finite count as zero, others are kept within [`HEIGHT_LIMIT`]; the outermost ring is zero,
-    /// and so is what a medium makes no open water.
+    /// and so is what a medium makes no open water. Of water waves, what else the scheme keeps is found for open water of one
+    /// depth, the mean; near a border that absorbs for less and less of the heights.
     ///
     /// # Errors
     /// [`GridError::InvalidValue`] when a slice has not one value per cell.
@@ -41,6 +42,9 @@ impl WaveGrid {
         if let Some(fields) = &mut self.fields {
             fields.clear();
         }
+        if let Some(spectral) = &mut self.spectral {
+            spectral.clear();
+        }
         let (nx, nz) = (self.state.nx, self.state.nz);
         for (array, given) in [(&mut self.state.z, now), (&mut self.state.old, before)] {
             for j in 1..nz - 1 {
@@ -50,6 +54,7 @@ impl WaveGrid {
                 }
             }
         }
+        self.start_from_heights();
         self.dry_walls();
         self.captured = false;
         self.capture();

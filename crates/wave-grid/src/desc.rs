@@ -182,6 +182,10 @@ impl GridDesc {
             let bound = "cell_size[0]: the dispersive scheme has square cells";
             return Err(GridError::InvalidValue { field: "cell_size[1]", value: self.cell_size[1].into(), bound });
         }
+        if self.scheme == Scheme::Spectral && self.border == Border::Reflecting {
+            let bound = "a border that absorbs or repeats: the spectral scheme has no walls";
+            return Err(GridError::InvalidValue { field: "border", value: 0.0, bound });
+        }
         let (c, h, tick) = (f64::from(self.wave_speed), self.cell_size.map(f64::from), f64::from(self.tick));
         let number = |n: u32| {
             let dt = tick / f64::from(n);

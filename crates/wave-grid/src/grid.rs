@@ -16,6 +16,7 @@ use crate::drift::Drift;
 use crate::feed::Feed;
 use crate::ground::Ground;
 use crate::hole::Holes;
+use crate::spectral::Spectral;
 use crate::window::{Move, Place};
 use crate::{GridDesc, GridError, Scheme, Stepping, cpu, state::State};
 
@@ -43,6 +44,8 @@ pub struct WaveGrid {
     pub(crate) state: State,
     /// What the dispersive scheme keeps besides.
     pub(crate) fields: Option<Box<Fields>>,
+    /// What the spectral scheme keeps besides.
+    pub(crate) spectral: Option<Box<Spectral>>,
     pub(crate) tiles: Tiles,
     pub(crate) ground: Option<Arc<Ground>>,
     pub(crate) feed: Option<Feed>,
@@ -86,6 +89,7 @@ impl WaveGrid {
             origin: DVec2::ZERO,
             state: State::new(nx, nz, desc.scheme),
             fields: (desc.scheme == Scheme::Dispersive).then(|| Box::new(Fields::new(&desc, &stepping))),
+            spectral: (desc.scheme == Scheme::Spectral).then(|| Box::new(Spectral::new(&desc, &stepping))),
             tiles: Tiles::new([nx, nz], place.window.tile_offset()),
             ground: None,
             feed: None,
@@ -153,6 +157,9 @@ impl WaveGrid {
                     if let Some(fields) = &mut self.fields {
                         fields.shift(shift);
                     }
+                    if let Some(spectral) = &mut self.spectral {
+                        spectral.shift(shift);
+                    }
                     self.desc.border.fill_rings(&mut self.state);
                 }
             }
@@ -177,6 +184,9 @@ impl WaveGrid {
         self.state.clear();
         if let Some(fields) = &mut self.fields {
             fields.clear();
+        }
+        if let Some(spectral) = &mut self.spectral {
+            spectral.clear();
         }
         self.tiles.clear(self.place.window.tile_offset());
         self.captured = true;

@@ -10,10 +10,13 @@ impl WaveGrid {
     ///
     /// Where waves disperse, its own: with q the potential and the screened fields, q_old a sub-step ago,
     /// hx hz g / G times the sum over the cells of G z^2 / 2 + sum_i (X - X_old)^2 / (2 m) + V(q, q_old), V the form of which
-    /// the scheme's forces are the slope.
+    /// the scheme's forces are the slope; of the spectral scheme hx hz / 2 times the sum of g z^2 + phi T phi.
     pub fn energy(&self) -> f64 {
         if let Some(fields) = &self.fields {
             return self.dispersive_energy(fields);
+        }
+        if let Some(spectral) = &self.spectral {
+            return spectral.energy(&self.state.z);
         }
         let state = &self.state;
         let nx = state.nx;
@@ -109,6 +112,7 @@ impl WaveGrid {
         let s = &self.state;
         let arrays = [&s.z, &s.old, &s.previous, &s.foam, &s.phi[0], &s.phi[1]];
         let fields = self.fields.iter().flat_map(|fields| fields.kept());
+        let fields = fields.chain(self.spectral.iter().map(|spectral| spectral.potential()));
         let memory = self.fields.iter().flat_map(|fields| &fields.layer).flat_map(|layer| layer.memory.values());
         arrays.into_iter().chain(fields).flat_map(|array| array.iter()).chain(memory).all(|v| v.is_finite())
     }
@@ -122,6 +126,7 @@ impl WaveGrid {
             eat(corner as u64);
         }
         let fields = self.fields.iter().flat_map(|fields| fields.kept());
+        let fields = fields.chain(self.spectral.iter().map(|spectral| spectral.potential()));
         let memory = self.fields.iter().flat_map(|fields| &fields.layer).flat_map(|layer| layer.memory.values());
         let arrays = [&s.z, &s.old, &s.foam, &s.phi[0], &s.phi[1]];
         for v in arrays.into_iter().chain(fields).flat_map(|array| array.iter()).chain(memory) {

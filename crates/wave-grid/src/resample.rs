@@ -92,6 +92,11 @@ impl WaveGrid {
         let before = self.older(from);
         let drawn = from.drawn_before();
         let mut across = Vec::new();
+        let potential = if self.desc.scheme.is_wave_equation() { None } else { from.velocity_potential() };
+        let mut phi = vec![0.0; self.state.z.len()];
+        if let Some(potential) = &potential {
+            read(potential, width, &rows, &taps, &mut across, &mut phi);
+        }
         for (field, out) in [
             (&from.state.z[..], &mut self.state.z),
             (&before, &mut self.state.old),
@@ -108,6 +113,10 @@ impl WaveGrid {
         }
         self.state.foam.iter_mut().for_each(|foam| *foam = foam.clamp(0.0, 1.0));
         self.captured = from.captured;
+        match potential {
+            Some(_) => self.start_from_potential(&mut phi),
+            None => self.start_from_heights(),
+        }
         self.dry_walls();
         self.tiles.activate_all();
         measure(&self.state, &mut self.tiles, true);
@@ -135,10 +144,10 @@ impl WaveGrid {
             let (i, j) = (at % nx, at / nx);
             i > 0 && j > 0 && i + 1 < nx && j + 1 < from.state.nz
         };
-        let cells = from.cells();
+        let (cells, waves) = (from.cells(), from.desc.scheme.is_wave_equation());
         (0..z.len())
             .map(|at| {
-                let falling = if !inside(at) {
+                let falling = if !inside(at) || !waves {
                     0.0
                 } else if let Some(cells) = cells {
                     if cells.is_open(at) { cells.divergence(z, at) as f32 } else { 0.0 }

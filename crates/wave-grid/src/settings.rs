@@ -14,9 +14,10 @@ use crate::{Border, Edges, WaveGrid};
 
 impl WaveGrid {
     /// Sets what the water lies in; `None` (default) is open deep water everywhere. May change while waves run: those in
-    /// what becomes wall or held water are let go, what a wall leaves behind is calm. A grid that repeats takes none.
+    /// what becomes wall or held water are let go, what a wall leaves behind is calm. A grid that repeats takes none, nor does
+    /// [`crate::Scheme::Spectral`].
     pub fn set_medium(&mut self, medium: Option<Arc<dyn Medium>>) {
-        let medium = medium.filter(|_| self.desc.border != Border::Periodic);
+        let medium = medium.filter(|_| self.desc.border != Border::Periodic && self.spectral.is_none());
         let law = self.cell_law();
         let corner = self.place.window.corner;
         // The ghosts of the old walls go, then whatever stands in the new ones.

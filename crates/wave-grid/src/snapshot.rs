@@ -28,7 +28,7 @@ pub struct GridSnapshot {
     /// The dispersive scheme's border layer.
     layer: Option<Layer>,
     /// Of each tile that is held: z, z_old, foam; then what it kept to be drawn; then phi along x and z; then what the
-    /// dispersive scheme keeps.
+    /// dispersive or the spectral scheme keeps.
     cells: Vec<f32>,
 }
 
@@ -45,7 +45,8 @@ impl WaveGrid {
             let state = &grid.state;
             let [phi_x, phi_z] = &state.phi;
             let arrays = [&state.z, &state.old, &state.foam, &state.previous, phi_x, phi_z];
-            let kept = grid.fields.iter().flat_map(|fields| fields.kept()).map(|field| (field, true));
+            let potential = grid.spectral.iter().map(|spectral| spectral.potential());
+            let kept = grid.fields.iter().flat_map(|fields| fields.kept()).chain(potential).map(|field| (field, true));
             for (array, wanted) in arrays.into_iter().zip(grid.parts(tile)).chain(kept) {
                 if wanted {
                     rows.clone().for_each(|row| cells.extend_from_slice(&array[row]));
@@ -87,6 +88,9 @@ impl WaveGrid {
                     if let Some(fields) = &mut self.fields {
                         fields.clear_cells(x, z);
                     }
+                    if let Some(spectral) = &mut self.spectral {
+                        spectral.clear();
+                    }
                 }
             }
         }
@@ -109,7 +113,9 @@ impl WaveGrid {
             let state = &mut self.state;
             let [phi_x, phi_z] = &mut state.phi;
             let arrays = [&mut state.z, &mut state.old, &mut state.foam, &mut state.previous, phi_x, phi_z];
-            let kept = self.fields.iter_mut().flat_map(|fields| fields.kept_mut()).map(|field| (field, true));
+            let potential = self.spectral.iter_mut().map(|spectral| spectral.potential_mut());
+            let kept = self.fields.iter_mut().flat_map(|fields| fields.kept_mut()).chain(potential);
+            let kept = kept.map(|field| (field, true));
             for (array, wanted) in arrays.into_iter().zip(parts).chain(kept) {
                 for row in rows.iter().filter(|_| wanted) {
                     let (cells, rest) = left.split_at(row.len());

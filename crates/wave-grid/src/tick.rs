@@ -34,7 +34,7 @@ impl WaveGrid {
         if self.skipping && self.at_rest() {
             return;
         }
-        if self.skipping {
+        if self.skipping && !(self.spectral.is_some() && !self.tiles.asleep()) {
             self.desc.border.schedule(&mut self.tiles);
         } else {
             self.tiles.activate_all();
@@ -52,6 +52,13 @@ impl WaveGrid {
             }
         }
         if self.tiles.active == 0 {
+            if let Some(spectral) = &mut self.spectral {
+                spectral.clear();
+            }
+            return;
+        }
+        if self.spectral.is_some() {
+            self.advance_spectrum();
             return;
         }
         let cells = self.ground.as_ref().and_then(|ground| ground.cells.as_ref());
@@ -146,6 +153,23 @@ impl WaveGrid {
         if self.desc.border.has_ring() {
             self.desc.border.fill_rings(&mut self.state);
         }
+        self.captured = false;
+    }
+
+    /// A tick of the spectral scheme: no tile is left out, nothing else is felt.
+    fn advance_spectrum(&mut self) {
+        if self.stepping.substeps > 1 {
+            self.keep_around(self.desc.cells.map(|n| [0, n as usize]));
+        }
+        if let Some(spectral) = &mut self.spectral {
+            for _ in 0..self.stepping.substeps {
+                spectral.step(&self.state.z, &mut self.state.old);
+                std::mem::swap(&mut self.state.z, &mut self.state.old);
+            }
+        }
+        cpu::foam::measure(&self.state, &mut self.tiles, true);
+        cpu::foam::settle(&mut self.state, &mut self.tiles, None, self.law);
+        self.desc.border.fill_rings(&mut self.state);
         self.captured = false;
     }
 

@@ -94,6 +94,19 @@ impl Fields {
         }
     }
 
+    /// Zeroes the outermost ring of cells.
+    pub(crate) fn clear_rim(&mut self) {
+        for field in self.all() {
+            let (nx, len) = (field.width(), field.len());
+            field[..nx].fill(0.0);
+            field[len - nx..].fill(0.0);
+            for row in field.chunks_exact_mut(nx) {
+                row[0] = 0.0;
+                row[nx - 1] = 0.0;
+            }
+        }
+    }
+
     /// Nothing stands in walls and held water.
     pub(crate) fn dry_walls(&mut self, cells: &Cells) {
         for field in self.all() {

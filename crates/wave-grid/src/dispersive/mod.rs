@@ -20,6 +20,7 @@ pub(crate) mod bed;
 pub(crate) mod fields;
 mod fitted;
 pub(crate) mod layer;
+pub(crate) mod start;
 pub(crate) mod table;
 
 pub(crate) use bed::Bed;

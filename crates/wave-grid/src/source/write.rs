@@ -82,6 +82,10 @@ impl WaveGrid {
             self.press_potential(footprint, weights);
             return;
         }
+        if self.spectral.is_some() {
+            self.press_spectrum(footprint, weights);
+            return;
+        }
         let nx = self.state.nx;
         let [[x0, x1], [z0, z1]] = footprint.range;
         let width = x1 - x0;
@@ -130,6 +134,19 @@ impl WaveGrid {
             }
         }
         self.tiles.touch(footprint.range, kick.abs(), 0.0);
+    }
+
+    /// The same in the spectral scheme.
+    fn press_spectrum(&mut self, footprint: &Footprint, weights: &[f32]) {
+        let Some(spectral) = &mut self.spectral else { return };
+        let [columns, rows] = footprint.range.map(|[low, high]| low..high);
+        let mut most = 0.0f32;
+        for (j, row) in rows.zip(weights.chunks_exact(columns.len())) {
+            for (i, weight) in columns.clone().zip(row) {
+                most = most.max(spectral.press(j * self.state.nx + i, weight * footprint.head));
+            }
+        }
+        self.tiles.touch(footprint.range, most, 0.0);
     }
 
     /// a lap of a field around a cell of plain water; `field(1, 1)` is the cell's own value.

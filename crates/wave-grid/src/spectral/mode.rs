@@ -33,7 +33,7 @@ pub(crate) struct Mode {
 
 impl Law {
     /// T, 1/m, of a wavenumber in 1/m.
-    fn t(&self, k: f64) -> f64 {
+    pub(super) fn t(&self, k: f64) -> f64 {
         if self.depth.is_finite() { k * libm::tanh(k * self.depth) } else { k }
     }
 

@@ -14,6 +14,7 @@ use rustfft::num_complex::Complex32;
 use rustfft::{Fft, FftPlanner};
 
 use super::mode::{Law, Mode};
+use super::wavenumber;
 
 /// Columns, and as many mirrored ones, or rows of a task.
 const LOT: usize = 16;
@@ -106,8 +107,7 @@ impl Propagator {
         let exact = 0.5 / (n * m) as f64;
         let (scale, [near, mean]) = split([exact / new.gain(), exact]);
         new.scale = scale;
-        let number = |i: usize, axis: usize| std::f64::consts::TAU * i as f64 / (size[axis] as f64 * h[axis]);
-        let mode = |i: usize, j: usize| law.mode(libm::hypot(number(i, 0), number(j, 1)), f64::from(near));
+        let mode = |i: usize, j: usize| law.mode(wavenumber(size, h, [i, j]), f64::from(near));
         let all = (0..=n / 2).flat_map(|i| (0..=m / 2).map(move |j| (i, j)));
         new.modes = all.map(|(i, j)| mode(i, j)).collect();
         new.modes[0] = law.mode(0.0, f64::from(mean));
@@ -168,8 +168,7 @@ impl Propagator {
     }
 
     fn spread_rows(&mut self, patch: &Patch, now: &[f32], p: &[f32], threads: bool) {
-        let [n, plan] = [self.size[0], 0].into();
-        let (plan, width) = (&self.plans[plan], patch.width);
+        let (n, plan, width) = (self.size[0], &self.plans[0], patch.width);
         let first = |lot: usize| (lot * LOT + patch.first) * width + patch.first;
         let task = |bench: &mut Bench, (lot, rows): (usize, &mut [Complex32])| {
             let given = now[first(lot)..].chunks(width).zip(p[first(lot)..].chunks(width));

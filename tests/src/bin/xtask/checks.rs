@@ -72,5 +72,10 @@ fn scenes(sections: &mut Sections) -> Result<(), Failure> {
             "run --release --example seas -- --state breeze --then gale --over 1 --frames 36 --size 160x90 --backend {backend} --out target/ci/seas-{backend}"
         ))?;
     }
+    for scheme in 1..=3 {
+        sections.cargo(&format!(
+            "run --release --example kelvin -- --frames 3 --size 320x180 --lead 2 --backend cpu --scheme {scheme} --out target/ci/kelvin-{scheme}"
+        ))?;
+    }
     sections.cargo("run --release --example embed -- --frames 4")
 }
