@@ -24,12 +24,10 @@ const ONE_SPEED: f32 = 3.0;
 /// Half-angle of the lines, degrees: the arcsine of a third.
 const KELVIN: f32 = 19.471_22;
 /// Cells of the wake's grid and their size, metres.
-const CELLS: [u32; 2] = [512, 384];
+const CELLS: [u32; 2] = [640, 320];
 const CELL: f32 = 0.25;
-/// From the boat back to the middle of its grid, metres.
-const BACK: f32 = 42.0;
 /// Length and width of the lines, metres.
-const LINE: [f32; 2] = [95.0, 0.16];
+const LINE: [f32; 2] = [76.0, 0.16];
 /// Seconds run before the first picture: the wake grows to the end of its grid.
 const LEAD: f32 = 30.0;
 /// Ticks between measurements of the angle.
@@ -90,7 +88,7 @@ impl Kelvin {
             self.water.remove_grid(before)?;
         }
         let grid = self.water.add_grid(GridDesc {
-            follow: Follow::Point,
+            follow: Follow::Body(self.boat.body),
             cells: CELLS,
             cell_size: [CELL; 2],
             wave_speed: ONE_SPEED,
@@ -100,14 +98,6 @@ impl Kelvin {
         })?;
         self.boat.wake = Some(grid);
         self.angle = None;
-        self.follow()
-    }
-
-    fn follow(&mut self) -> Result<(), SceneError> {
-        let at = self.state().position;
-        if let Some(grid) = self.boat.wake {
-            self.water.set_follow_point(grid, DVec2::new(f64::from(at.x - BACK), f64::from(at.z)))?;
-        }
         Ok(())
     }
 
@@ -220,7 +210,6 @@ impl Scene for Kelvin {
         self.throttle = (self.throttle + 0.1 * short * self.water.desc().tick).clamp(0.0, 1.0);
         let throttle = (self.throttle + 0.3 * short).clamp(0.0, 1.0);
         self.water.set_controls(self.boat.body, Controls { throttle, steering, ..Controls::default() })?;
-        self.follow()?;
         let began = Instant::now();
         self.water.tick(tick, &mut self.states)?;
         let took = 1e3 * began.elapsed().as_secs_f32();
@@ -256,13 +245,13 @@ impl Scene for Kelvin {
     }
 
     fn viewpoint(&self, index: usize) -> Option<Viewpoint> {
-        let middle = self.pose().position.with_y(0.0) - Vec3::X * 38.0;
-        (index == 0).then_some(Viewpoint { eye: middle + Vec3::new(-0.5, 95.0, 0.0), target: middle })
+        let middle = self.pose().position.with_y(0.0) - Vec3::X * 30.0;
+        (index == 0).then_some(Viewpoint { eye: middle + Vec3::new(-0.5, 80.0, 0.0), target: middle })
     }
 
     fn map(&self) -> (Vec2, f32) {
         let at = self.pose().position;
-        (Vec2::new(at.x - 38.0, at.z), 104.0)
+        (Vec2::new(at.x - 30.0, at.z), 92.0)
     }
 
     fn subject(&self) -> Subject {

@@ -12,13 +12,22 @@ use crate::{
 pub(super) const KELVIN: Case = Case {
     name: "kelvin",
     about: "half-angle of the wake of a moving pressure at 4, 5 and 6 m/s, median over its sizes, against 19.47 degrees",
-    plots: &[Plot {
-        file: "kelvin",
-        title: "Half-angle of wakes by the source's radius",
-        x: Axis::Param("radius_m"),
-        y: Axis::Param("degrees"),
-        label: Some("speed"),
-    }],
+    plots: &[
+        Plot {
+            file: "kelvin",
+            title: "Half-angle of wakes (Kelvin: 19.47 degrees), median over the source's sizes",
+            x: Axis::Param("speed"),
+            y: Axis::Param("degrees"),
+            label: Some("degrees"),
+        },
+        Plot {
+            file: "kelvin_sizes",
+            title: "Half-angle of wakes by the source's radius",
+            x: Axis::Param("radius_m"),
+            y: Axis::Param("size_degrees"),
+            label: None,
+        },
+    ],
     run: angles,
 };
 
@@ -35,7 +44,10 @@ const CELL: f64 = 0.5;
 /// Cells of the border: as wide as most waves are long, which the damping of the spectral scheme needs.
 const BORDER: u32 = 36;
 /// Metres from the middle of the window forward to the source.
-const AHEAD: f64 = 32.0;
+const AHEAD: f64 = 40.0;
+
+/// By so much, degrees, the estimator may be off on the exact scheme where another is held against Kelvin's angle itself.
+const ESTIMATOR: f64 = 0.2;
 
 /// A wake in its window: the grid and where its source is now.
 struct Wake {
@@ -50,7 +62,7 @@ impl Wake {
         let tick = f64::from(desc.tick);
         let length = f64::from(desc.cells[0]) * CELL;
         // The waves of the caustic fall behind by two thirds of the speed, the transverse ones by half.
-        let time = 1.6 * length / speed + 4.0;
+        let time = 1.4 * length / speed + 4.0;
         let mut source = DVec2::ZERO;
         for step in 0..(time / tick) as u32 {
             source.x += speed * tick;
@@ -141,8 +153,8 @@ fn angles(context: &Context) -> Result<Vec<Row>, CaseError> {
                 let wedge = wedge::kelvin(speed, wake.room(), |behind, aside| wake.height(behind, aside));
                 let Wedge { degrees, scatter, .. } = wedge.ok_or("no wedge is found")?;
                 found.push(degrees);
-                let row = Row::new("kelvin", name).param("speed", speed).param("radius_m", radius);
-                let row = row.param("degrees", rounded(degrees)).param("scatter_m", rounded(scatter));
+                let row = Row::new("kelvin", format!("{name}, {speed} m/s")).param("radius_m", radius);
+                let row = row.param("size_degrees", rounded(degrees)).param("scatter_m", rounded(scatter));
                 rows.push(row.error((degrees - truth).abs(), "degrees", "19.47 degrees, one size"));
                 if speed == 5.0 && radius == 2.0 {
                     show(context, name, &wake)?;
@@ -151,12 +163,14 @@ fn angles(context: &Context) -> Result<Vec<Row>, CaseError> {
             let degrees = median(found);
             let mut row = Row::new("kelvin", format!("{name}, median")).param("speed", speed);
             row = row.param("degrees", rounded(degrees)).param("off_exact", rounded(degrees - exact));
-            if scheme == Scheme::Spectral {
+            row = if scheme == Scheme::Spectral {
                 exact = degrees;
-                row = row.error((degrees - truth).abs(), "degrees", "19.47 degrees: the estimator on the exact scheme");
+                row.error((degrees - truth).abs(), "degrees", "19.47 degrees: the estimator on the exact scheme")
+            } else if (exact - truth).abs() <= ESTIMATOR {
+                row.error((degrees - truth).abs(), "degrees", "19.47 degrees")
             } else {
-                row = row.error((degrees - truth).abs(), "degrees", "19.47 degrees");
-            }
+                row.error((degrees - exact).abs(), "degrees", "the exact scheme, where the estimator itself is off")
+            };
             rows.push(row.bound(0.5));
         }
         // All its waves have one speed, 3 m/s here.
@@ -164,7 +178,7 @@ fn angles(context: &Context) -> Result<Vec<Row>, CaseError> {
         let wedge = wedge::mach(Room { behind: 40.0, ..wake.room() }, |behind, aside| wake.height(behind, aside));
         let degrees = wedge.ok_or("no wedge is found")?.degrees;
         let row = Row::new("kelvin", "wave equation").param("speed", speed).param("degrees", rounded(degrees));
-        let row = row.param("asin_c_over_u", rounded((3.0 / speed).asin().to_degrees())).param("radius_m", 2.0);
+        let row = row.param("asin_c_over_u", rounded((3.0 / speed).asin().to_degrees())).param("source_m", 2.0);
         rows.push(row.error((degrees - truth).abs(), "degrees", "19.47 degrees, which it does not have"));
         if speed == 5.0 {
             show(context, "wave_equation", &wake)?;

@@ -7,7 +7,7 @@
 //! `sin(theta) = 1/sqrt 3`). The next term of that series, in `x^(-1/3)`, tells how unequal the two waves are that the source
 //! makes, and is fitted with alpha. A straight line would be 1 to 3 degrees too low over some wavelengths.
 //!
-//! The envelope is the modulus of the heights' part at the caustic's wavenumber along the course, `sqrt(3/2) g/U^2`, within .4
+//! The envelope is the modulus of the heights' part at the caustic's wavenumber along the course, `sqrt(3/2) g/U^2`, within .36
 //! wavelengths. Sources a good part of U^2/g wide raise the angle by some tenths of a degree, wider ones make no cusp.
 
 use std::f64::consts::TAU;
@@ -17,7 +17,7 @@ const GRAVITY: f64 = 9.81;
 /// Ai's greatest place over the slope of s: see the module.
 const AIRY: f64 = 0.5195;
 /// Standard deviation of the window that the envelope is taken in, wavelengths 2 pi U^2/g; it ends at so many of it.
-const WINDOW: f64 = 0.4;
+const WINDOW: f64 = 0.36;
 const REACH: f64 = 2.2;
 /// Nearest distance that counts, wavelengths.
 const NEAREST: f64 = 1.5;

@@ -10,7 +10,7 @@ impl WaveGrid {
         let starter = self.starter();
         let (z, old) = (&self.state.z[..], &self.state.old[..]);
         if let (Some(fields), Some(start)) = (&mut self.fields, starter) {
-            start.from_heights(z, old, fields);
+            start.by_heights(z, old, fields);
         } else if let Some(spectral) = &mut self.spectral {
             spectral.start(&self.desc, z, old);
         }
@@ -22,7 +22,7 @@ impl WaveGrid {
         if let (Some(fields), Some(start)) = (&mut self.fields, starter) {
             let share = (self.stepping.dt / f64::from(self.desc.cell_size[0])) as f32;
             phi.iter_mut().for_each(|phi| *phi *= share);
-            start.from_potential(&self.state.z, phi, fields);
+            start.by_potential(&self.state.z, phi, fields);
         } else if let Some(spectral) = &mut self.spectral {
             spectral.start_from_potential(phi);
         }

@@ -34,7 +34,7 @@ impl WaveGrid {
         if self.skipping && self.at_rest() {
             return;
         }
-        if self.skipping && !(self.spectral.is_some() && !self.tiles.asleep()) {
+        if self.skipping && (self.spectral.is_none() || self.tiles.asleep()) {
             self.desc.border.schedule(&mut self.tiles);
         } else {
             self.tiles.activate_all();

@@ -70,7 +70,7 @@ impl Start {
     }
 
     /// From the heights now and a sub-step ago. The mean potential, which no height tells, is zero.
-    pub(crate) fn from_heights(&self, z: &[f32], old: &[f32], fields: &mut Fields) {
+    pub(crate) fn by_heights(&self, z: &[f32], old: &[f32], fields: &mut Fields) {
         let pair = self.plane.forth(z, old);
         let before = |at: [usize; 2], [z, old]: [Complex64; 2]| {
             let p = if at == [0; 2] { Complex64::default() } else { (z - old) / self.mode(at).kappa };
@@ -80,7 +80,7 @@ impl Start {
     }
 
     /// From the heights and the potential P half a sub-step ago.
-    pub(crate) fn from_potential(&self, z: &[f32], middle: &[f32], fields: &mut Fields) {
+    pub(crate) fn by_potential(&self, z: &[f32], middle: &[f32], fields: &mut Fields) {
         let half = 0.5 * self.law.g;
         let before: Vec<f32> = middle.iter().zip(z).map(|(p, z)| p + half * z).collect();
         let pair = self.plane.forth(&before, z);

@@ -84,8 +84,8 @@ fn a_raised_level_stays() {
 fn damping_takes_half_its_rate_of_the_amplitude() {
     let desc = GridDesc { damping: 0.2, ..desc([66, 66], 1.0 / 30.0) };
     let mut grid = WaveGrid::new(desc).unwrap();
-    let (k, half) = (TAU * 4.0 / 32.0, 0.1);
-    let turn = (9.81 * k - half * half as f64).sqrt() * f64::from(desc.tick) / TAU;
+    let (k, half) = (TAU * 4.0 / 32.0, 0.1f64);
+    let turn = (9.81 * k - half * half).sqrt() * f64::from(desc.tick) / TAU;
     let grown = (half * f64::from(desc.tick)).exp() as f32;
     let before: Vec<f32> = plane(&desc, [4.0, 0.0], -turn).iter().map(|z| z * grown).collect();
     grid.impose(&plane(&desc, [4.0, 0.0], 0.0), &before).unwrap();
