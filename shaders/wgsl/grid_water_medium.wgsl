@@ -2,11 +2,14 @@ struct GridWaterCell {
     // c, s_1, s_2, s_3 of the face before it along x and along z.
     along: vec4<f32>,
     across: vec4<f32>,
-    // As in GridCell; a is only a sign.
-    place: u32,
+    // m of each chi.
+    m: vec3<f32>,
+    // As in GridCell.
     a: f32,
     r: f32,
-    pad: u32,
+    place: u32,
+    pad_x: u32,
+    pad_y: u32,
 }
 
 @group(1) @binding(3) var<storage, read> grid_water_cells: array<GridWaterCell>;
@@ -30,6 +33,9 @@ fn grid_water_medium(@builtin(global_invocation_id) id: vec3<u32>) {
     for (var k = 0u; k < FIELDS; k++) {
         grid_faces[(*water).faces + at / 4u + k * stride][part] = cell.along[k];
         grid_faces[(*water).faces + at / 4u + (k + FIELDS) * stride][part] = cell.across[k];
+    }
+    for (var k = 0u; k + 1u < FIELDS; k++) {
+        grid_faces[(*water).faces + at / 4u + (k + 2u * FIELDS) * stride][part] = cell.m[k];
     }
     if cell.r == 0.0 {
         for (var k = 0u; k < 4u; k++) {

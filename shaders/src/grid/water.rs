@@ -15,8 +15,8 @@ use crate::{Pass, param_layout, surface::MAX_GRIDS};
 const FIELDS: u32 = 4;
 /// Arrays of the fields buffer, per grid.
 pub const FIELD_ARRAYS: u32 = 4;
-/// Arrays of the faces buffer, per grid.
-pub const FACE_ARRAYS: u32 = 2 * FIELDS;
+/// Arrays of the faces buffer, per grid: of the faces along both axes, and m of each chi.
+pub const FACE_ARRAYS: u32 = 3 * FIELDS - 1;
 /// `vec4`s of a slot along x: the edges before a tile's cells and the cells, of each field, and the edges after its two halves.
 pub const SLOT_X_VECTORS: u32 = 2 * FIELDS * TILE_THREADS + 2 * TILE;
 /// `vec4`s of a slot along z: likewise, and the edges above the rows of every thread.
@@ -79,14 +79,16 @@ pub struct GridWaterCell {
     pub along: [f32; 4],
     /// The same along z.
     pub across: [f32; 4],
-    /// As of [`super::GridCell`].
-    pub place: u32,
+    /// m of each chi.
+    pub m: [f32; 3],
     /// Above zero in water, 0 in walls beside it, below in others.
     pub a: f32,
     /// 1 / (1 + sigma dt / 2); 0 for what is not open water.
     pub r: f32,
+    /// As of [`super::GridCell`].
+    pub place: u32,
     /// Padding.
-    pub pad: u32,
+    pub pad: [u32; 2],
 }
 
 /// What WGSL knows of all this.
@@ -116,7 +118,7 @@ pub const WATER_MEDIUM: Pass = Pass {
         SCHEDULE_PARAMS[0],
         SCHEDULE_PARAMS[1],
         GRID_WATER,
-        param_layout!(GridWaterCell { along, across, place, a, r, pad }),
+        param_layout!(GridWaterCell { along, across, m, a, r, place, pad }),
     ],
 };
 

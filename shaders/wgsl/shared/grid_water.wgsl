@@ -26,7 +26,7 @@ struct GridWater {
 // Per grid chi_2, chi_2, chi_3, chi_3 (old and new by turns), then what its layer remembers; grid_memory holds phi, phi,
 // chi_1, chi_1.
 @group(1) @binding(1) var<storage, read_write> grid_fields: array<vec4<f32>>;
-// Per grid c, s_1, s_2, s_3 of the face before each cell along x, then along z.
+// Per grid c, s_1, s_2, s_3 of the face before each cell along x, then along z, and m of each chi.
 @group(1) @binding(2) var<storage, read_write> grid_faces: array<vec4<f32>>;
 
 // Whether cells are outermost ones of such sides only.

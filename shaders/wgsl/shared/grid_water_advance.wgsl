@@ -36,9 +36,9 @@ fn read_bed(grid: GridParams, water: GridWater, at: u32, east: u32, north: u32) 
     bed.w_3 = read_faces(water.faces, grid.stride, 3u, at, east, north);
     let damp = grid.base / 2u + grid.stride + at;
     bed.damp = Pair(grid_ground[damp], grid_ground[damp + 1u]);
-    let m_1 = mobility(bed.w_1, water.rates.y);
-    let m_2 = mobility(bed.w_2, water.rates.z);
-    let m_3 = mobility(bed.w_3, water.rates.w);
+    let m_1 = read_m(water.faces, grid.stride, 0u, at);
+    let m_2 = read_m(water.faces, grid.stride, 1u, at);
+    let m_3 = read_m(water.faces, grid.stride, 2u, at);
     bed.m_a = Fields(bed.damp.a, m_1.a, m_2.a, m_3.a);
     bed.m_b = Fields(bed.damp.b, m_1.b, m_2.b, m_3.b);
     return bed;

@@ -65,9 +65,8 @@ fn read_faces(first: u32, stride: u32, k: u32, at: u32, east: u32, north: u32) -
         Pair(grid_faces[z + at], grid_faces[z + at + 1u]), Pair(grid_faces[z + north], grid_faces[z + north + 1u]));
 }
 
-// 3.6 / (2 sum of the four faces' s + 2 r): what a screened field moves by.
-fn mobility(w: Faces, r: f32) -> Pair {
-    let a = w.x.a + vec4<f32>(w.x.a.yzw, w.x.b.x) + w.s.a + w.n.a;
-    let b = w.x.b + vec4<f32>(w.x.b.yzw, w.far) + w.s.b + w.n.b;
-    return Pair(1.8 / (a + r), 1.8 / (b + r));
+// m of chi number k.
+fn read_m(first: u32, stride: u32, k: u32, at: u32) -> Pair {
+    let m = first + (2u * FIELDS + k) * stride + at;
+    return Pair(grid_faces[m], grid_faces[m + 1u]);
 }

@@ -129,7 +129,7 @@ impl Buffers {
             fields: create(device, "grid fields", STATE_USAGE, 16),
             faces: create(device, "grid faces", STATE_USAGE, 16),
             water: list("grid water", uniform, 16),
-            water_cells: list("grid water cells", storage, 48),
+            water_cells: list("grid water cells", storage, 64),
             marks: create(device, "grid marks", STATE_USAGE, 16),
             list: create(device, "grid list", storage, 16),
             counts: list("grid counts", storage | wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::COPY_SRC, 4096),

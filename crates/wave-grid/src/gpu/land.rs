@@ -78,11 +78,14 @@ impl Land {
     /// The same of a dispersive grid.
     pub(super) fn upload_water(&mut self, slot: u32, torus: [usize; 2], list: &mut Vec<GridWaterCell>) {
         self.each_stale(slot, torus, |cells, at, place| {
-            let [along, across] = match &cells.bed {
-                Some(bed) => bed.faces.each_ref().map(|faces| faces.each_ref().map(|face| face[at])),
-                None => [[0.0; 4]; 2],
+            let ([along, across], m) = match &cells.bed {
+                Some(bed) => (
+                    bed.faces.each_ref().map(|faces| faces.each_ref().map(|face| face[at])),
+                    bed.m.each_ref().map(|m| m[at]),
+                ),
+                None => Default::default(),
             };
-            list.push(GridWaterCell { along, across, place, a: cells.a[at], r: cells.r[at], pad: 0 });
+            list.push(GridWaterCell { along, across, m, a: cells.a[at], r: cells.r[at], place, pad: [0; 2] });
         });
     }
 

@@ -102,7 +102,7 @@ impl GpuGrids {
     /// # Errors
     /// As [`crate::WaveGrid::new`], when its scheme is [`Scheme::Spectral`], when its border does not absorb by a matched layer,
     /// when there are [`MAX_GRIDS`] already, and when all grids together would have too many cells: 8,388,608, of the
-    /// dispersive scheme at most 4,194,304.
+    /// dispersive scheme at most 3,050,402.
     pub fn insert(&mut self, desc: GridDesc) -> Result<GpuGridId, GridError> {
         let stepping = desc.stepping()?;
         if desc.scheme == Scheme::Spectral {
@@ -135,7 +135,7 @@ impl GpuGrids {
         let bytes = 16 * (u64::from(base) + (torus[0] * torus[1]) as u64);
         let most = water.as_ref().map_or(0, |water| water.end().fields.max(water.end().faces));
         if 16 * u64::from(most) > MAX_STATE_BYTES {
-            let bound = "such that all dispersive grids together hold at most 4,194,304 cells";
+            let bound = "such that all dispersive grids together hold at most 3,050,402 cells";
             return Err(GridError::InvalidValue { field: "cells", value: (torus[0] * torus[1]) as f64, bound });
         }
         if bytes > MAX_STATE_BYTES {
