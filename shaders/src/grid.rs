@@ -72,7 +72,7 @@ pub const MIXED_TILE: u32 = 32;
 /// [`WATER_LIST`] and [`WATER_PREPARE_LIST`].
 pub const KINDS: u32 = 4;
 /// Lists in all.
-pub const LIST_COUNT: u32 = KINDS + 3;
+pub const LIST_COUNT: u32 = KINDS + 4;
 /// Words of a tick's counts: for each list three numbers of workgroups and one of tiles, then a grid's tiles each.
 pub const COUNT_WORDS: u32 = ACTIVE_WORD + MAX_GRIDS as u32;
 /// Where in a tick's counts the tiles of each grid are.

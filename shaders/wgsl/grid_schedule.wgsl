@@ -8,11 +8,11 @@ override TILES_PER_GROUP: u32 = 1u;
 @group(1) @binding(2) var<storage, read_write> grid_counts: array<atomic<u32>>;
 @group(1) @binding(3) var<storage, read_write> grid_marks: array<atomic<u32>>;
 
-fn push(list: u32, per_group: u32, entry: vec4<u32>) {
-    let work = grid_dispatch.work + 4u * list;
-    let rank = atomicAdd(&grid_counts[work + 3u], 1u);
+// The workgroups of a list count as those of list `dispatched`.
+fn push(list: u32, dispatched: u32, per_group: u32, entry: vec4<u32>) {
+    let rank = atomicAdd(&grid_counts[grid_dispatch.work + 4u * list + 3u], 1u);
     if rank % per_group == 0u {
-        atomicAdd(&grid_counts[work], 1u);
+        atomicAdd(&grid_counts[grid_dispatch.work + 4u * dispatched], 1u);
     }
     grid_list[list * grid_dispatch.count + rank] = entry;
 }
@@ -49,9 +49,13 @@ fn grid_schedule(@builtin(global_invocation_id) id: vec3<u32>) {
     let entry = vec4<u32>(tile.xyz, flags | kept | select(0u, FRESH_X | FRESH_Z, waking));
     if wanted {
         atomicAdd(&grid_counts[grid_dispatch.work + ACTIVE_WORD + slot], 1u);
-        push(select(tile.w & KIND_MASK, WATER_LIST, water), TILES_PER_GROUP, entry);
+        // Open water, or the layer and mixed tiles.
+        let general = (tile.w & MIXED_TILE) != 0u || (tile.w & SLOTS_MASK) != SLOTS_MASK;
+        let dispatched = select(tile.w & KIND_MASK, WATER_LIST, water);
+        push(dispatched + select(0u, 1u, water && general), dispatched, TILES_PER_GROUP, entry);
     }
     if prepared {
-        push(select(PREPARE_LIST, WATER_PREPARE_LIST, water), 1u, entry);
+        let dispatched = select(PREPARE_LIST, WATER_PREPARE_LIST, water);
+        push(dispatched, dispatched, 1u, entry);
     }
 }

@@ -23,7 +23,7 @@ pub const SLOT_X_VECTORS: u32 = 2 * FIELDS * TILE_THREADS + 2 * TILE;
 pub const SLOT_Z_VECTORS: u32 = 2 * FIELDS * TILE_THREADS + FIELDS * TILE_THREADS;
 /// No slot.
 pub const NO_SLOT: u32 = u32::MAX;
-/// The list of tiles to be stepped.
+/// The list of tiles to be stepped that are open water of one depth; the next is of those that are not, and both are one dispatch.
 pub const WATER_LIST: u32 = KINDS + 1;
 /// The list of tiles to be prepared.
 pub const WATER_PREPARE_LIST: u32 = LIST_COUNT - 1;
@@ -143,8 +143,10 @@ pub const WATER_STEP: Pass = Pass {
         include_str!("../../wgsl/shared/grid_foam.wgsl"),
         WATER_SHARED,
         include_str!("../../wgsl/shared/grid_water_field.wgsl"),
+        include_str!("../../wgsl/shared/grid_water_strip.wgsl"),
         include_str!("../../wgsl/shared/grid_water_layer.wgsl"),
         include_str!("../../wgsl/shared/grid_water_advance.wgsl"),
+        include_str!("../../wgsl/shared/grid_water_row.wgsl"),
         include_str!("../../wgsl/grid_water_step.wgsl"),
     ],
     entry_points: &["grid_water_step"],

@@ -1,5 +1,3 @@
-override MIXED: bool = true;
-
 // phi and chi of four cells, or a number for each.
 struct Fields {
     p: vec4<f32>,
@@ -83,10 +81,12 @@ struct Foam {
 
 // Of four cells: heights in three rows before the sub-step and after it; where the medium varies its a and the faces' c.
 fn foam_of(
-    grid: GridParams, mixed: bool, s: Row, c: Row, n: Row, next: vec4<f32>, a_s: vec4<f32>, a_c: Row, a_n: vec4<f32>,
+    strip: Strip, s: Row, c: Row, n: Row, next: vec4<f32>, a_s: vec4<f32>, a_c: Row, a_n: vec4<f32>,
     faces: Fluxes, open: vec4<bool>,
 ) -> Foam {
     let none = vec4<f32>(0.0);
+    let grid = strip.grid;
+    let mixed = (strip.entry.w & MIXED_TILE) != 0u;
     var bend = (c.west - c.here) + (c.east - c.here) + (s.here - c.here) + (n.here - c.here);
     if MIXED {
         bend = select(bend, open_bend(s, c, n, faces, 1.0), vec4<bool>(mixed));

@@ -44,6 +44,14 @@ fn along_z(jumps: Faces, w: Faces) -> Pair {
     return Pair(w.n.a * jumps.n.a - w.s.a * jumps.s.a, w.n.b * jumps.n.b - w.s.b * jumps.s.b);
 }
 
+// Both where all faces have the same coefficient.
+fn spread(u: Rows, w: f32) -> Pair {
+    let c = u.c;
+    return Pair(
+        w * ((c.a.west - c.a.here) + (c.a.east - c.a.here) + (u.s.a.here - c.a.here) + (u.n.a.here - c.a.here)),
+        w * ((c.b.west - c.b.here) + (c.b.east - c.b.here) + (u.s.b.here - c.b.here) + (u.n.b.here - c.b.here)));
+}
+
 fn read_memory(first: u32, west: u32, here: u32, east: u32) -> Wide {
     return wide(
         grid_memory[first + west].w, grid_memory[first + here], grid_memory[first + here + 1u],

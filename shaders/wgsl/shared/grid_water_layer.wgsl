@@ -43,23 +43,23 @@ struct Layer {
     fresh: vec2<bool>,
 }
 
-fn layer_of(
-    grid: GridParams, water: GridWater, entry: vec4<u32>, i_a: vec4<u32>, i_b: vec4<u32>, half: u32, row: u32,
-) -> Layer {
-    let n = grid.cells.x;
+fn layer_of(s: Strip, i_a: vec4<u32>, i_b: vec4<u32>) -> Layer {
+    let water = s.water;
+    let n = s.grid.cells.x;
     let peak = water.peaks.xy;
     let a = vec4<f32>(i_a);
     let b = vec4<f32>(i_b);
     var layer: Layer;
-    layer.slots = slots_of(grid, water, entry.x, entry.w);
+    layer.slots = slots_of(s.grid, water, s.entry.x, s.entry.w);
     layer.edge_a = damp(a - 0.5, n, peak, water);
     layer.edge_b = damp(b - 0.5, n, peak, water);
     layer.far = damp(b.wwww + 0.5, n, peak, water);
     layer.node_a = damp(a, n, peak, water);
     layer.node_b = damp(b, n, peak, water);
-    layer.at = row * (TILE / 4u) + 2u * half;
-    layer.beyond = layer.slots.y + 2u * FIELDS * TILE_THREADS + row / ROWS * FIELDS * (TILE / 4u) + 2u * half;
-    layer.fresh = ((vec2<u32>(entry.w) & vec2<u32>(FRESH_X, FRESH_Z)) != vec2<u32>(0u)) & vec2<bool>(grid_dispatch.substep == 0u);
+    layer.at = s.row_in_tile * (TILE / 4u) + 2u * s.half;
+    layer.beyond =
+        layer.slots.y + 2u * FIELDS * TILE_THREADS + s.row_in_tile / ROWS * FIELDS * (TILE / 4u) + 2u * s.half;
+    layer.fresh = ((vec2<u32>(s.entry.w) & vec2<u32>(FRESH_X, FRESH_Z)) != vec2<u32>(0u)) & vec2<bool>(grid_dispatch.substep == 0u);
     return layer;
 }
 
