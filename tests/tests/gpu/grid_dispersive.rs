@@ -178,8 +178,8 @@ fn a_calm_grid_sleeps_and_wakes_without_a_memory() {
     assert!(twins.pairs[0].cpu.is_asleep());
     assert_eq!(twins.compare(&context, 0.5)[0], [0.0; 3], "what sleeps is zero");
     // An encoder that is dropped and one that is not.
-    for t in 0..60 {
-        twins.add(0, stone(-38.0 + 0.5 * t as f32, 0.0, 6.0, 3.0));
+    for t in 0..160 {
+        twins.add(0, stone(-38.0 + 0.2 * t as f32, 0.0, 6.0, 30.0));
         twins.tick();
         if t % 5 == 2 {
             let mut encoder = context.device.create_command_encoder(&Default::default());
@@ -195,7 +195,7 @@ fn a_calm_grid_sleeps_and_wakes_without_a_memory() {
     let next = twins.gpu.insert(desc).unwrap();
     assert_eq!(next, id);
     twins.pairs[0].cpu.clear();
-    for _ in 0..40 {
+    for _ in 0..100 {
         twins.add(0, stone(-40.0, 10.0, 6.0, 3.0));
         twins.tick();
         twins.encode(&context);
