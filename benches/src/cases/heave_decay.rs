@@ -56,6 +56,9 @@ fn heave(context: &Context) -> Result<Vec<Row>, CaseError> {
     for float in floats()? {
         let grids: &[(f32, u32)] = context.pick(&[(0.5, 60), (0.5, 120)], &[(0.5, 60), (0.5, 120), (1.0, 60)]);
         for &(cell, rate) in grids {
+            if context.pick(rate == 120 && float.radiation == "estimated", false) {
+                continue;
+            }
             let found = released(&float, cell, rate)?;
             let times: Vec<f64> = (0..found.len()).map(|i| i as f64 / f64::from(rate)).collect();
             let theory = float.theory.decay(float.mass, DENSITY * G * float.area, &times);

@@ -43,6 +43,7 @@ mod ocean_time;
 mod ocean_variance;
 mod ocean_view;
 mod rapier;
+mod sinkage;
 
 use crate::evidence::Case;
 
@@ -109,6 +110,7 @@ pub const CASES: &[Case] = &[
     body_float::DRAFT,
     body_float::TICK,
     heave_decay::HEAVE,
+    sinkage::SINKAGE,
     rapier::DRAFT,
     rapier::VS_OWN,
     facade::GPU_VS_CPU,
