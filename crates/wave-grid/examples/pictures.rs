@@ -32,7 +32,7 @@ fn stone(path: &Path) -> Result<(), Box<dyn Error>> {
     for _ in 0..100 {
         grid.tick();
     }
-    picture(&grid, |_| false, 0.02, path)
+    picture(&grid, |_| Bed::Deep, 0.02, path)
 }
 
 /// A boat 1.6 times as fast as the waves, its window after it.
@@ -48,7 +48,7 @@ fn boat(path: &Path) -> Result<(), Box<dyn Error>> {
         }
         grid.tick();
     }
-    picture(&grid, |_| false, 0.15, path)
+    picture(&grid, |_| Bed::Deep, 0.15, path)
 }
 
 /// What waves of 1/2 s run against.
@@ -90,7 +90,7 @@ fn coast(coast: Coast, path: &Path) -> Result<(), Box<dyn Error>> {
         grid.add(paddle.source(grid.desc(), WATER, f64::from(tick) / 60.0)?);
         grid.tick();
     }
-    picture(&grid, |place| coast.is_wall(place), 0.12, path)
+    picture(&grid, |place| Bed::wall(coast.is_wall(place)), 0.12, path)
 }
 
 /// What a boat runs along.
@@ -98,13 +98,19 @@ fn coast(coast: Coast, path: &Path) -> Result<(), Box<dyn Error>> {
 enum Reach {
     /// A wall.
     Quay,
-    /// A bank that rises from 10 m to 1 m below the surface.
+    /// A round bank that rises from 10 m to 0.4 m below the surface.
     Bank,
 }
 
 impl Reach {
     fn is_wall(self, place: DVec2) -> bool {
         self == Reach::Quay && place.y < -16.0
+    }
+
+    /// Of the bank's height: 0 outside, 1 on its top.
+    fn rise(self, place: DVec2) -> f64 {
+        let up = ((28.0 - place.distance(DVec2::new(-10.0, 22.0))) / 12.0).clamp(0.0, 1.0);
+        if self == Reach::Bank { up * up * (3.0 - 2.0 * up) } else { 0.0 }
     }
 }
 
@@ -114,8 +120,7 @@ impl Medium for Reach {
             let kind = if self.is_wall(place) { CellKind::Wall } else { CellKind::Open };
             return MediumCell { kind, ..MediumCell::default() };
         }
-        let top = (-place.distance_squared(DVec2::new(0.0, -24.0)) / 250.0).exp() as f32;
-        MediumCell { depth: 10.0 - 9.0 * top, ..MediumCell::default() }
+        MediumCell { depth: (10.0 - 9.6 * self.rise(place)) as f32, ..MediumCell::default() }
     }
 
     fn is_plain(&self, _: DVec2, _: DVec2, _: f32) -> bool {
@@ -135,7 +140,8 @@ fn wake(reach: Reach, path: &Path) -> Result<(), Box<dyn Error>> {
         }
         grid.tick();
     }
-    picture(&grid, |place| reach.is_wall(place), 0.04, path)
+    let bed = |place| if reach.is_wall(place) { Bed::Wall } else { Bed::Bank(reach.rise(place) as f32) };
+    picture(&grid, bed, 0.04, path)
 }
 
 /// 5 x 5 m in a shower.
@@ -146,11 +152,26 @@ fn rain(path: &Path) -> Result<(), Box<dyn Error>> {
         grid.add_rain(&shower, tick);
         grid.tick();
     }
-    picture(&grid, |_| false, 0.001, path)
+    picture(&grid, |_| Bed::Deep, 0.001, path)
+}
+
+/// What is below a pixel.
+#[derive(Clone, Copy, PartialEq)]
+enum Bed {
+    Deep,
+    /// So much of a bank's height.
+    Bank(f32),
+    Wall,
+}
+
+impl Bed {
+    fn wall(is: bool) -> Self {
+        if is { Self::Wall } else { Self::Deep }
+    }
 }
 
 /// The drawn heights, lit from the upper left; `steep` is the slope that is drawn white.
-fn picture(grid: &WaveGrid, wall: impl Fn(DVec2) -> bool, steep: f32, path: &Path) -> Result<(), Box<dyn Error>> {
+fn picture(grid: &WaveGrid, bed: impl Fn(DVec2) -> Bed, steep: f32, path: &Path) -> Result<(), Box<dyn Error>> {
     let window = grid.window();
     let [nx, nz] = window.cells.map(|n| n as usize);
     let cell = DVec2::new(f64::from(window.cell_size[0]), f64::from(window.cell_size[1]));
@@ -159,18 +180,22 @@ fn picture(grid: &WaveGrid, wall: impl Fn(DVec2) -> bool, steep: f32, path: &Pat
     let mut pixels = format!("P6\n{nx} {nz}\n255\n").into_bytes();
     for j in 0..nz {
         for i in 0..nx {
-            if wall(window.world_corner() + cell * DVec2::new(i as f64 + 0.5, j as f64 + 0.5)) {
+            let bed = bed(window.world_corner() + cell * DVec2::new(i as f64 + 0.5, j as f64 + 0.5));
+            if bed == Bed::Wall {
                 pixels.extend([70, 60, 50]);
                 continue;
             }
+            let pale = if let Bed::Bank(rise) = bed { 0.3 * rise } else { 0.0 };
             let height = |i: usize, j: usize| drawn[j.min(nz - 1) * nx + i.min(nx - 1)][0];
             let slope =
                 height(i + 1, j) - height(i.saturating_sub(1), j) + height(i, j + 1) - height(i, j.saturating_sub(1));
             let light = (0.5 + 0.5 * slope / (4.0 * steep * cell.x as f32)).clamp(0.0, 1.0);
-            pixels.extend([[10.0, 190.0], [50.0, 225.0], [80.0, 235.0]].map(|[low, high]: [f32; 2]| {
-                let bright = low + (high - low) * light;
-                bright as u8
-            }));
+            pixels.extend([[10.0, 190.0, 225.0], [50.0, 225.0, 210.0], [80.0, 235.0, 160.0]].map(
+                |[low, high, sand]| {
+                    let water = low + (high - low) * light;
+                    (water + (sand - water) * pale) as u8
+                },
+            ));
         }
     }
     Ok(fs::write(path, pixels)?)
