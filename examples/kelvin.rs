@@ -151,6 +151,8 @@ impl Scene for Kelvin {
          1 wave equation, 2 dispersive, 3 spectral.";
     const SEA: &'static str = include_str!("assets/seas/calm.txt");
     const VIEWPOINTS: usize = 1;
+    const VIEW: u32 = 3;
+    const LABELLED: bool = true;
     type More = More;
     type Assets = usize;
 

@@ -1,5 +1,7 @@
 //! Capitals, digits and marks of three by five dots.
 
+use image::{Rgba, RgbaImage};
+
 /// Rows from the top, three dots each, left dot first.
 const GLYPHS: &[(char, [&str; 5])] = &[
     ('A', [".#.", "#.#", "###", "#.#", "#.#"]),
@@ -54,6 +56,9 @@ const GLYPHS: &[(char, [&str; 5])] = &[
 pub(crate) const ADVANCE: usize = 4;
 /// Dots per line, the gap included.
 pub(crate) const LINE: usize = 7;
+/// Pixels of a picture along a side of a dot, and around the text.
+const DOT: u32 = 2;
+const MARGIN: u32 = 8;
 
 /// Calls `dot` with the column and row of every dot of a text, small letters as capitals; what has no glyph is a blank.
 pub(crate) fn dots(text: &str, mut dot: impl FnMut(usize, usize)) {
@@ -70,6 +75,27 @@ pub(crate) fn dots(text: &str, mut dot: impl FnMut(usize, usize)) {
             }
         }
     }
+}
+
+/// Writes `text` into the upper left corner of a picture, on a darkened panel so that it reads on any water.
+pub(crate) fn label(picture: &mut RgbaImage, text: &str) {
+    let columns = text.lines().map(|line| line.chars().count()).max().unwrap_or(0) * ADVANCE;
+    let rows = text.lines().count() * LINE;
+    let panel = [columns, rows].map(|dots| (DOT as usize * dots) as u32 + 2 * MARGIN);
+    for y in 0..panel[1].min(picture.height()) {
+        for x in 0..panel[0].min(picture.width()) {
+            let [red, green, blue, alpha] = picture.get_pixel(x, y).0;
+            picture.put_pixel(x, y, Rgba([red / 2, green / 2, blue / 2, alpha]));
+        }
+    }
+    dots(text, |x, y| {
+        let [x, y] = [x, y].map(|dot| MARGIN + DOT * dot as u32);
+        for (x, y) in (0..DOT * DOT).map(|k| (x + k % DOT, y + k / DOT)) {
+            if let Some(pixel) = picture.get_pixel_mut_checked(x, y) {
+                *pixel = Rgba([225, 225, 225, 255]);
+            }
+        }
+    });
 }
 
 #[cfg(test)]

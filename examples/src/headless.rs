@@ -10,6 +10,7 @@ use open_water::OpenWater;
 use crate::camera::Rig;
 use crate::capture::{Capture, FORMAT, Writer};
 use crate::draw::Painter;
+use crate::font;
 use crate::options::Setup;
 use crate::scene::advance;
 use crate::timing::Timing;
@@ -53,7 +54,7 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Resu
         Pick::Cpu => Target::Cpu(TopView::new(size)),
     };
     let mut log = Log { ticks: Timing::default(), frames: Timing::default(), plan: String::new() };
-    let mut rig = Rig::number(options.view);
+    let mut rig = Rig::number(options.view.unwrap_or(S::VIEW));
     let start = Instant::now();
     let bar = ProgressBar::new(u64::from(frames)).with_style(
         ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left").unwrap_or(ProgressStyle::default_bar()),
@@ -65,7 +66,7 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Resu
             return Err(SceneError::NotFinite("the boat", scene.water().time()));
         }
         let began = Instant::now();
-        let picture = match (&mut target, &pick) {
+        let mut picture = match (&mut target, &pick) {
             (Target::Gpu { painter, capture }, Pick::Gpu(gpu)) => {
                 let camera = rig.look(&scene, size, FRAME);
                 scene.seen(&camera);
@@ -77,6 +78,9 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Resu
             (Target::Cpu(view), _) => view.draw(&mut scene),
             (Target::Gpu { .. }, Pick::Cpu) => break,
         };
+        if S::LABELLED {
+            font::label(&mut picture, &scene.status());
+        }
         log.frames.push(began);
         writer.push(picture)?;
         bar.inc(1);

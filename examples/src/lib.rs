@@ -59,13 +59,12 @@ fn command<S: Scene>() -> clap::Command {
 fn read<S: Scene>(matches: &clap::ArgMatches) -> Result<Line<S::More>, SceneError> {
     let line = Line::<S::More>::from_arg_matches(matches).map_err(SceneError::usage)?;
     let cameras = 2 + S::VIEWPOINTS;
-    if line.options.view as usize > cameras {
-        return Err(SceneError::Usage(format!(
-            "--view is {}, this scene has cameras 1 to {cameras}",
-            line.options.view
-        )));
+    match line.options.view {
+        Some(view) if view as usize > cameras => {
+            Err(SceneError::Usage(format!("--view is {view}, this scene has cameras 1 to {cameras}")))
+        }
+        _ => Ok(line),
     }
-    Ok(line)
 }
 
 /// Runs a scene as the command line says: exit code 0, 2 for bad arguments or files, 1 for what went wrong later.

@@ -60,9 +60,9 @@ pub struct Options {
     /// Hull mesh, STL, OBJ or glTF, metres, y up, x forward; open tops are capped [default: an 8 m launch]
     #[arg(long, value_name = "FILE")]
     pub hull: Option<PathBuf>,
-    /// Which camera: 1 follows the boat, 2 circles it, 3 and up stand where the scene puts them
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=9))]
-    pub view: u32,
+    /// Which camera: 1 follows the boat, 2 circles it, 3 and up stand where the scene puts them [default: the scene's choice]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9))]
+    pub view: Option<u32>,
     /// Seconds of the scene run before the first picture, 0 to 600 [default: as the scene needs]
     #[arg(long, value_name = "S", value_parser = parse_lead)]
     pub lead: Option<f32>,

@@ -72,6 +72,12 @@ pub trait Scene: Sized + 'static {
     /// How many cameras stand at viewpoints of its own.
     const VIEWPOINTS: usize = 0;
 
+    /// Its camera when the command line names none.
+    const VIEW: u32 = 1;
+
+    /// Whether pictures written without a window carry its lines of the overlay.
+    const LABELLED: bool = false;
+
     /// Options of its own.
     type More: clap::Args + 'static;
 

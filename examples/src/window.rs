@@ -73,7 +73,14 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Resu
         Err(_) => return Ok(Outcome::NoDisplay("no display found".into())),
     };
     let input = Input { autopilot: true, ..Input::default() };
-    let mut app = App::<S> { options, setup, live: None, rig: Rig::number(options.view), input, end: Ok(None) };
+    let mut app = App::<S> {
+        options,
+        setup,
+        live: None,
+        rig: Rig::number(options.view.unwrap_or(S::VIEW)),
+        input,
+        end: Ok(None),
+    };
     event_loop.run_app(&mut app).map_err(|error| SceneError::Gpu(error.to_string()))?;
     Ok(match app.end? {
         Some(why) => Outcome::NoDisplay(why),
