@@ -1,9 +1,10 @@
 //! Interactive water waves on a shifting window with absorbing borders, on the CPU and on wgpu.
 //!
-//! A [`WaveGrid`] solves the wave equation on a window of cells that follows a target in whole cells. Bodies disturb it
+//! A [`WaveGrid`] carries waves on a window of cells that follows a target in whole cells. Bodies disturb it
 //! with [`Source`]s; its border absorbs what leaves; its drawn height fades to zero at the edge, so grids and
-//! ambient sea can be summed. Waves of all lengths travel at one speed in deep water; a [`Medium`] slows them over a bed,
-//! damps them and puts walls in their way. A grid knows nothing of bodies or of the ambient sea.
+//! ambient sea can be summed. A [`Scheme`] says which waves: of the wave equation, all of one speed, or of water, whose long ones
+//! outrun the short. A [`Medium`] slows them over a bed, damps them and puts walls in their way. A grid knows nothing of bodies or
+//! of the ambient sea.
 //!
 //! ```
 //! use glam::{DVec2, Vec2};
