@@ -60,6 +60,8 @@ struct Kelvin {
     meshes: Option<[MeshId; 2]>,
     chosen: usize,
     ticks: u64,
+    /// When the grid was made, of `ticks`.
+    since: u64,
     /// Milliseconds of a tick, smoothed.
     cost: f32,
     /// Measured half-angle, degrees.
@@ -98,29 +100,36 @@ impl Kelvin {
         })?;
         self.boat.wake = Some(grid);
         self.angle = None;
+        self.since = self.ticks;
         Ok(())
     }
 
-    /// The wake's half-angle from the heights of its grid.
+    /// The wake's half-angle from the heights of its grid, once the wake is as long as what is measured.
     fn measure(&self) -> Option<f32> {
         let grid = self.water.grid(self.boat.wake?).ok()??;
         let (window, state) = (grid.window(), self.state());
         let boat = state.position.as_dvec3();
         // Without what the border takes.
         let rim = f64::from(CHOICES[self.chosen].2 + 4) * f64::from(CELL);
+        let scheme = CHOICES[self.chosen].1;
+        let behind = boat.x - window.world_corner().x - rim;
         let room = Room {
             step: 2.0 * f64::from(CELL),
-            behind: boat.x - window.world_corner().x - rim,
+            behind: if scheme.is_wave_equation() { behind.min(40.0) } else { behind },
             aside: 0.5 * f64::from(CELLS[1]) * f64::from(CELL) - rim - 1.0,
         };
+        let run = (self.ticks - self.since) as f32 * self.water.desc().tick * SPEED;
+        if f64::from(run) < room.behind {
+            return None;
+        }
         let height = |behind: f64, aside: f64| {
             let at = (DVec2::new(boat.x - behind, boat.z + aside) - window.world_corner()) / f64::from(CELL);
             let (i, j) = (at.x.max(0.0) as usize, at.y.max(0.0) as usize);
             grid.heights().get(j * CELLS[0] as usize + i).map_or(0.0, |z| f64::from(*z))
         };
-        let wedge = match CHOICES[self.chosen].1 {
+        let wedge = match scheme {
             Scheme::Dispersive | Scheme::Spectral => wedge::kelvin(state.velocity.x.max(1.0).into(), room, height),
-            _ => wedge::mach(Room { behind: room.behind.min(40.0), ..room }, height),
+            _ => wedge::mach(room, height),
         };
         wedge.map(|wedge| wedge.degrees as f32)
     }
@@ -180,6 +189,7 @@ impl Scene for Kelvin {
             meshes: None,
             chosen: setup.assets,
             ticks: 0,
+            since: 0,
             cost: 0.0,
             angle: None,
         };
