@@ -1,7 +1,9 @@
 //! Windows that follow what the game sets: a point, a view.
 
 use glam::{DVec2, Vec3};
-use open_water::{BodyStates, Follow, GridDesc, GridId, Look, OpenWater, OpenWaterDesc, OpenWaterError, Preset};
+use open_water::{
+    BodyStates, Border, Follow, GridDesc, GridId, Look, OpenWater, OpenWaterDesc, OpenWaterError, Preset,
+};
 
 const DT: f32 = 1.0 / 60.0;
 
@@ -12,7 +14,8 @@ fn calm() -> OpenWater {
 }
 
 fn small(follow: Follow) -> GridDesc {
-    GridDesc { follow, cells: [128; 2], ..Preset::Low.grid() }
+    let border = Border::Absorbing { width: 8 };
+    GridDesc { follow, cells: [128; 2], cell_size: [0.125; 2], border, ..Preset::Low.grid() }
 }
 
 fn tick(water: &mut OpenWater) {
