@@ -23,7 +23,7 @@ pub enum Scheme {
     /// The 5-point form of Yang et al. 2017, Eq. 2; 1.3 % along the axes at 8 cells per wave, none along the diagonals.
     FivePoint,
     /// The dispersion of water waves by an explicit scheme with three screened fields, from 6 to 128 cells a wave: over a bed,
-    /// between walls, in an absorbing border. Square cells. About three times the cost of the wave equation.
+    /// between walls, in an absorbing border. Square cells. About four times the cost of the wave equation.
     Dispersive,
     /// The exact dispersion of water of one depth by Fourier transforms; no walls and no bed. For reference, and where
     /// waves of all lengths matter. Its bits depend on the machine.
