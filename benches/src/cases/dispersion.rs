@@ -3,19 +3,12 @@
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
+use wave_grid::dispersive::{FIELDS, MOST_G, Shares, Table};
+
 use crate::{
     evidence::{Axis, Case, CaseError, Context, Plot, Row},
     fit::Task,
 };
-
-/// The shipped coefficients, which are no part of the library's interface.
-#[allow(dead_code, clippy::duplicate_mod)]
-#[path = "../../../crates/wave-grid/src/dispersive"]
-mod shipped {
-    pub(super) mod fitted;
-    pub(super) mod table;
-}
-use shipped::table::{FIELDS, MOST_G, Shares, Table};
 
 /// See the module.
 pub(super) const DISPERSION: Case = Case {

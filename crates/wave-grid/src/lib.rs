@@ -34,7 +34,7 @@ mod cells;
 mod cpu;
 mod desc;
 mod dispersion;
-mod dispersive;
+pub mod dispersive;
 mod drift;
 mod error;
 mod feed;

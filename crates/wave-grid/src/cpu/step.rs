@@ -106,7 +106,7 @@ fn walk(band: Band, rows: Range<usize>, pieces: usize, s: &Shared) {
 }
 
 /// Whether two tiles take the same inner loop.
-fn alike(a: &Tile, b: &Tile) -> bool {
+pub(crate) fn alike(a: &Tile, b: &Tile) -> bool {
     a.mode == b.mode && a.class == b.class && a.faint() == b.faint()
 }
 

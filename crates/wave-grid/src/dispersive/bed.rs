@@ -3,8 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::table::Shares;
-use super::{FIELDS, Table, mobility};
+use super::{FIELDS, Shares, Table, mobility};
 use crate::cells::widened;
 use crate::field::Field;
 

@@ -14,21 +14,19 @@
 //!
 //! All weights are symmetric, so there is an energy; faces beside walls have none, so walls are exact mirrors. c and s
 //! follow the depth at each face. Coefficients are fitted through the lowest eigenvalue of the whole discrete system,
-//! so that the errors of space and time are part of the fit: see [`table`].
+//! so that the errors of space and time are part of the fit: see [`Table`].
 
 pub(crate) mod bed;
 pub(crate) mod fields;
 mod fitted;
 pub(crate) mod layer;
 pub(crate) mod start;
-pub(crate) mod table;
+mod table;
 
 pub(crate) use bed::Bed;
 pub(crate) use fields::Fields;
 pub(crate) use layer::{Layer, Memory};
-pub(crate) use table::{DEEP, FIELDS, MOST_G, Table};
-
-use table::Shares;
+pub use table::{DEEP, FIELDS, MOST_G, Shares, Table};
 
 use crate::{GridDesc, Stepping};
 

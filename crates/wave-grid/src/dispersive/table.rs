@@ -10,11 +10,11 @@
 use super::fitted::{NODES, R, SHARES};
 
 /// Screened fields beside the potential.
-pub(crate) const FIELDS: usize = 3;
+pub const FIELDS: usize = 3;
 /// Largest G = g dt^2 / D that is fitted for. Any smaller one is.
-pub(crate) const MOST_G: f64 = 0.006;
+pub const MOST_G: f64 = 0.006;
 /// Cells: here and below the water is deep for every wave that the grid carries.
-pub(crate) const DEEP: f32 = 80.0;
+pub const DEEP: f32 = 80.0;
 /// Cells: above this the coefficients are in proportion to the depth.
 const SHALLOW: f32 = 0.625;
 /// Nodes of depth: 8 an octave, evenly spaced within it, so that they are the leading bits of a depth.
@@ -24,7 +24,7 @@ const BELOW: u32 = 20;
 
 /// Coefficients of the Laplacians at one depth: of the potential, and of the fields. Lengths in cells.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Shares {
+pub struct Shares {
     /// Of the potential.
     pub c: f32,
     /// Of the fields.
@@ -39,14 +39,14 @@ impl Shares {
 
 /// Coefficients at one G.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Table {
+pub struct Table {
     r: [f32; FIELDS],
     nodes: [Shares; DEPTHS],
 }
 
 impl Table {
     /// For `g` = g dt^2 / D, 0 to [`MOST_G`]: cubic in G.
-    pub(crate) fn new(g: f64) -> Self {
+    pub fn new(g: f64) -> Self {
         let weights: [f64; 4] = std::array::from_fn(|i| {
             let others = (0..4).filter(|&j| j != i);
             others.map(|j| (g - NODES[j]) / (NODES[i] - NODES[j])).product()
@@ -63,17 +63,17 @@ impl Table {
     }
 
     /// The exchange between the potential and each field, at every depth.
-    pub(crate) fn r(&self) -> [f32; FIELDS] {
+    pub fn r(&self) -> [f32; FIELDS] {
         self.r
     }
 
     /// In deep water.
-    pub(crate) fn deep(&self) -> Shares {
+    pub fn deep(&self) -> Shares {
         self.nodes[DEPTHS - 1]
     }
 
     /// In water `depth` cells deep: continuous, linear between nodes. Zero where there is none.
-    pub(crate) fn at(&self, depth: f32) -> Shares {
+    pub fn at(&self, depth: f32) -> Shares {
         if depth >= DEEP {
             return self.deep();
         }

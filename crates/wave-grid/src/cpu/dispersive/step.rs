@@ -9,8 +9,8 @@ use super::general::{BedRow, Factors, General, LayerRow};
 use super::plain::{Around, Input, Output, plain_row};
 use super::{psi, sponge};
 use crate::Border;
-use crate::cpu::step::Keep;
-use crate::cpu::tiles::{Class, Mode, Tile, Tiles};
+use crate::cpu::step::{Keep, alike};
+use crate::cpu::tiles::{Class, Mode, Tiles};
 use crate::desc::MOST_CELLS;
 use crate::dispersive::fields::calm_edges;
 use crate::dispersive::layer::{Axis, MEMORIES};
@@ -118,10 +118,6 @@ fn walk(band: Band, rows: Range<usize>, pieces: usize, s: &Shared) {
         return;
     }
     dispatch!(s.by.level, simd => step_band(simd, band, rows, s));
-}
-
-fn alike(a: &Tile, b: &Tile) -> bool {
-    a.mode == b.mode && a.class == b.class && a.faint() == b.faint()
 }
 
 #[inline(always)]
