@@ -81,6 +81,8 @@ pub struct Body {
     immersed: f32,
     /// What it exchanges with a grid that carries textures.
     radiator: Option<Box<Radiator>>,
+    /// Cells for which that was asked last, m; 0 before.
+    fitted_for: f32,
     /// The heights of its home grid act on its points.
     feels_own: bool,
     /// The waves it makes take its energy away; otherwise its coefficients do.
@@ -134,6 +136,7 @@ impl Body {
             tensions: Vec::new(),
             immersed: 0.0,
             radiator: None,
+            fitted_for: 0.0,
             feels_own: false,
             radiates: false,
             points,

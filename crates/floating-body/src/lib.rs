@@ -51,7 +51,7 @@ pub use mooring::MooringLine;
 pub use point::{ForcePoint, PointShape};
 pub use radiation::{Imprint, RadiationTable, RadiationTables, TextureKernel, Textures};
 pub use source::Displacement;
-pub use water::{AiryWave, FlatWater, Home, SurfacePatch, SurfaceSample, WaterSurface};
+pub use water::{AiryWave, FlatWater, Home, SurfacePatch, SurfaceSample, Touch, WaterSurface};
 
 /// Gravity in m/s^2.
 pub const GRAVITY: f32 = 9.81;

@@ -68,6 +68,20 @@ pub struct SurfacePatch {
     pub level: f32,
 }
 
+/// How far a point is inside something solid: the bed, a quay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// How far inside in m, along the normal; not positive outside.
+    pub depth: f32,
+    /// Unit normal, out of what is solid.
+    pub normal: Vec3,
+}
+
+impl Touch {
+    /// Nothing solid near by.
+    pub const NONE: Self = Self { depth: f32::NEG_INFINITY, normal: Vec3::Y };
+}
+
 /// The grid that carries the waves a body makes, as far as the body is concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Home {
@@ -82,7 +96,7 @@ pub enum Home {
 
 /// The water surface as one body sees it (its `own` grid differs from body to body).
 ///
-/// Positions are local world (x, z) in m. Both calls must answer for any finite position, without allocation.
+/// Positions are local world in m. Every call must answer for any finite position, without allocation.
 pub trait WaterSurface: Sync {
     /// Fills `out` with the water at `points`; both have the same length.
     fn sample(&self, points: &[Vec2], out: &mut [SurfaceSample]);
@@ -94,6 +108,20 @@ pub trait WaterSurface: Sync {
     /// ([`Body::fit_textures`](crate::Body::fit_textures)).
     fn radiated(&self, _at: Vec2, _heading: f32) -> Option<[f32; 3]> {
         None
+    }
+    /// [`patch`](Self::patch) for many places at once; all slices have the same length.
+    fn patches(&self, centers: &[Vec2], radius: f32, out: &mut [SurfacePatch]) {
+        for (center, out) in centers.iter().zip(out) {
+            *out = self.patch(*center, radius);
+        }
+    }
+    /// Whether the water between two corners is at rest and stays so for the next tick. False when in doubt.
+    fn is_calm(&self, _low: Vec2, _high: Vec2) -> bool {
+        false
+    }
+    /// What is solid at `points`; both slices have the same length. Returns whether anything is touched.
+    fn touch(&self, _points: &[Vec3], _out: &mut [Touch]) -> bool {
+        false
     }
     /// Whose waves `own` holds.
     fn home(&self) -> Home {
@@ -120,6 +148,10 @@ impl WaterSurface for FlatWater {
     fn patch(&self, _center: Vec2, _radius: f32) -> SurfacePatch {
         let (height, velocity) = (self.height, self.current);
         SurfacePatch { height, velocity, level: height, ..SurfacePatch::default() }
+    }
+
+    fn is_calm(&self, _low: Vec2, _high: Vec2) -> bool {
+        self.current == Vec3::ZERO
     }
 }
 

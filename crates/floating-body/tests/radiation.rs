@@ -141,6 +141,15 @@ fn bodies_with_coefficients_have_no_textures() {
     assert!(!body.fit_textures(f32::NAN) && !body.fit_textures(0.0));
 }
 
+#[test]
+fn cells_that_fit_no_textures_are_tried_once() {
+    let mut body = Body::new(barge()).unwrap();
+    assert!(body.fit_textures(0.5) && body.textures().is_some());
+    assert!(body.fit_textures(40.0) && body.textures().is_none());
+    assert!(!body.fit_textures(40.0));
+    assert!(body.fit_textures(0.5) && body.textures().is_some());
+}
+
 /// Flat water with a grid that answers with these heads.
 struct Answer(Vec3);
 

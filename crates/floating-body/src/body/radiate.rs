@@ -36,22 +36,24 @@ impl Body {
     }
 
     /// Fits the textures of a body with [`Radiation::Grid`] for a grid with cells of `cell` m, if they are not for such
-    /// already: whoever owns the grid does so before a step. Returns whether they are new. Takes some milliseconds.
+    /// already: whoever owns the grid does so before a step. Returns whether they changed; where none fit there are none
+    /// ([`Body::textures`]) until the cells change. Takes some milliseconds.
     pub fn fit_textures(&mut self, cell: f32) -> bool {
-        if self.desc.radiation != Radiation::Grid || self.radiator.as_ref().is_some_and(|r| r.cell == cell) {
+        let asked = self.desc.radiation == Radiation::Grid && cell > 0.0 && cell.is_finite();
+        if !asked || self.fitted_for == cell {
             return false;
         }
-        if !(cell > 0.0 && cell.is_finite()) {
-            return false;
-        }
+        self.fitted_for = cell;
+        let had = self.radiator.is_some();
         let afloat = self.afloat();
         let (center, level) = (afloat.center, afloat.level);
-        let Ok(Some(textures)) = Textures::fit(&afloat, cell) else { return false };
-        let w = &self.waterline;
-        let mut radiator = Radiator::new(textures, cell, center, w.area, w.volume);
-        radiator.weigh(&self.points, level);
-        self.radiator = Some(Box::new(radiator));
-        true
+        self.radiator = Textures::fit(&afloat, cell).ok().flatten().map(|textures| {
+            let w = &self.waterline;
+            let mut radiator = Radiator::new(textures, center, w.area, w.volume);
+            radiator.weigh(&self.points, level);
+            Box::new(radiator)
+        });
+        had || self.radiator.is_some()
     }
 
     /// The textures of the last fit.

@@ -6,7 +6,7 @@ use super::moorings::Mobility;
 use super::{Body, BodyState, DEEPEST, FINEST, LIMITS, Scheme};
 use crate::desc::{Inertia, Radiation, Sampling};
 use crate::drag::implicit;
-use crate::forces::{Pose, gravity, immerse, read_patch, read_points, resistance_axes};
+use crate::forces::{Pose, Wetness, gravity, immerse, read_patch, read_points, resistance_axes};
 use crate::rotation::{matrix, tumble, turned};
 use crate::source::Displacement;
 use crate::{Controls, Home, WaterSurface};
@@ -45,6 +45,11 @@ impl Body {
         }
     }
 
+    /// What the water at rest around the hull does to it at a pose.
+    fn wetness(&self, pose: &Pose) -> Wetness {
+        immerse(&self.points, &self.waters, pose, self.feels_own, self.desc.water_density)
+    }
+
     /// Carries the surface on by `time` s, its velocity by `whole` s: drag is implicit and meets the sub-step's end.
     pub(super) fn carry_water(&mut self, time: f32, whole: f32) {
         for water in &mut self.waters {
@@ -58,10 +63,10 @@ impl Body {
     pub(super) fn substep(&mut self, dt: f32, part: f32, scheme: Scheme, controls: &Controls) {
         let start = matrix(self.state.orientation).transpose();
         let pose = if scheme.ahead > 0.0 { self.pose_after(scheme.ahead * dt) } else { self.pose() };
-        let (own, before) = (self.feels_own, self.state.velocity);
+        let before = self.state.velocity;
         let spun = start * self.state.angular_velocity;
         let desc = &self.desc;
-        let wet = immerse(&self.points, &self.waters, &pose, own, desc.water_density);
+        let wet = self.wetness(&pose);
         let share = (wet.volume / self.waterline.volume).min(DEEPEST);
         let to_body = pose.rotation.transpose();
         let (coefficients, push) = self.radiation();

@@ -43,7 +43,6 @@ struct Place {
 /// See the module.
 #[derive(Clone, Debug)]
 pub(crate) struct Radiator {
-    pub(crate) cell: f32,
     pub(crate) textures: Textures,
     /// Centre of the waterplane from the centre of mass, hull axes (x, z), m.
     pub(crate) center: Vec2,
@@ -76,9 +75,8 @@ fn crossing(share: f32) -> f32 {
 }
 
 impl Radiator {
-    pub(crate) fn new(textures: Textures, cell: f32, center: Vec2, plane: f32, volume: f32) -> Self {
+    pub(crate) fn new(textures: Textures, center: Vec2, plane: f32, volume: f32) -> Self {
         Self {
-            cell,
             textures,
             center,
             radius: (plane / std::f32::consts::PI).sqrt(),
