@@ -39,7 +39,8 @@ impl Body {
     /// already: whoever owns the grid does so before a step. Returns whether they changed; where none fit there are none
     /// ([`Body::textures`]) until the cells change. Takes some milliseconds.
     pub fn fit_textures(&mut self, cell: f32) -> bool {
-        let asked = self.desc.radiation == Radiation::Grid && cell > 0.0 && cell.is_finite();
+        let floats = self.desc.mass < self.desc.hull.volume() * self.desc.water_density;
+        let asked = self.desc.radiation == Radiation::Grid && floats && cell > 0.0 && cell.is_finite();
         if !asked || self.fitted_for == cell {
             return false;
         }
