@@ -7,11 +7,13 @@ mod state;
 mod stiffness;
 mod substep;
 mod tick;
+mod touch;
 
 use glam::{Mat3, Vec2, Vec3};
 
 pub use self::state::{BodyState, Wrench};
 use self::stiffness::stiffness;
+use self::touch::Solids;
 use crate::desc::Inertia;
 use crate::forces::LocalWater;
 use crate::hull::Waterline;
@@ -78,6 +80,8 @@ pub struct Body {
     moorings: Vec<MooringLine>,
     /// Of each line, mean over the last tick.
     tensions: Vec<f32>,
+    /// Bed and quays.
+    solids: Solids,
     immersed: f32,
     /// What it exchanges with a grid that carries textures.
     radiator: Option<Box<Radiator>>,
@@ -134,6 +138,7 @@ impl Body {
             wash: Displacement::default(),
             moorings: Vec::new(),
             tensions: Vec::new(),
+            solids: Solids::new(&desc),
             immersed: 0.0,
             radiator: None,
             fitted_for: 0.0,
@@ -197,6 +202,7 @@ impl Body {
         self.state.position -= shift;
         self.good.position -= shift;
         self.columns.iter_mut().for_each(|c| c.rebase(offset));
+        self.solids.rebase(shift);
         self.radiator.iter_mut().for_each(|r| r.rebase(offset));
         self.wash.center -= offset;
         self.moorings.iter_mut().for_each(|line| line.anchor -= shift);

@@ -5,7 +5,7 @@ use glam::{Mat3, Vec3};
 use crate::coefficients::{Afloat, Coefficients};
 use crate::drag::Drag;
 use crate::error::check_range;
-use crate::{BodyError, Engine, ForcePoint, GRAVITY, Hull, RadiationTables, WATER_DENSITY};
+use crate::{BodyError, Contact, Engine, ForcePoint, GRAVITY, Hull, RadiationTables, WATER_DENSITY};
 
 /// Bodies shorter than this, in m, read one patch of water by default.
 pub(crate) const PATCH_LENGTH: f32 = 2.5;
@@ -87,6 +87,8 @@ pub struct BodyDesc {
     pub drag: Drag,
     /// Default: none.
     pub engine: Option<Engine>,
+    /// How it meets the bed and quays; `None` passes through. Default: [`Contact::default`].
+    pub contact: Option<Contact>,
     /// Density of the water in kg/m^3, 1 to 20000.
     pub water_density: f32,
 }
@@ -109,6 +111,7 @@ impl BodyDesc {
             tables: RadiationTables::default(),
             drag: Drag::default(),
             engine: None,
+            contact: Some(Contact::default()),
             water_density: WATER_DENSITY,
         };
         desc.estimate();
@@ -214,6 +217,7 @@ impl BodyDesc {
         }
         check_all("drag.cross_flow", self.drag.cross_flow, 0.0, 1.0, "in [0, 1]")?;
         check_all("drag.lateral_center", self.drag.lateral_center, -1.0e4, 1.0e4, "within +-10000 m")?;
+        self.contact.as_ref().map_or(Ok(()), Contact::check)?;
         self.tables.check()?;
         self.engine.as_ref().map_or(Ok(()), Engine::check)
     }

@@ -25,6 +25,7 @@
 
 mod body;
 mod coefficients;
+mod contact;
 mod desc;
 mod drag;
 mod engine;
@@ -42,6 +43,7 @@ mod water;
 
 pub use body::{Body, BodyState, Wrench};
 pub use coefficients::Coefficients;
+pub use contact::Contact;
 pub use desc::{BodyDesc, ForcePoints, Inertia, Radiation, Sampling};
 pub use drag::Drag;
 pub use engine::{Controls, Engine};

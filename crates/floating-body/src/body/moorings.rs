@@ -12,7 +12,9 @@ pub(super) struct Mobility {
     pub(super) axes: Mat3,
     /// kg.
     pub(super) whole: Vec3,
-    /// Inverse of the inertia, body axes.
+    /// Inertia, body axes.
+    pub(super) inertia: Mat3,
+    /// Its inverse.
     pub(super) inverse: Mat3,
 }
 

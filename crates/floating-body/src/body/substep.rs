@@ -76,8 +76,9 @@ impl Body {
         let added = coefficients.added_mass * share;
         let whole = Vec3::splat(desc.mass) + added;
         let inertia = self.inertia + Mat3::from_diagonal(coefficients.added_inertia * share);
+        let mobility = Mobility { axes, whole, inertia, inverse: inertia.inverse() };
         if !self.moorings.is_empty() {
-            self.pull(dt, part, &pose, &Mobility { axes, whole, inverse: inertia.inverse() });
+            self.pull(dt, part, &pose, &mobility);
         }
         let desc = &self.desc;
         let velocity = to_axes * self.state.velocity;
@@ -100,12 +101,13 @@ impl Body {
             + engine_torque
             + lateral.cross(to_body * axes.z_axis * sideways);
         let held = 1.0 + (self.stiffness.y * dt * dt - FINEST * FINEST).max(0.0);
-        let turning = start * self.state.angular_velocity + inertia.inverse() * torque * (dt / held);
+        let turning = start * self.state.angular_velocity + mobility.inverse * torque * (dt / held);
         let spin = turning - wet.spin;
         let rates = (desc.drag.angular_rates(spin, slowed.length()) + coefficients.angular_damping) * share;
         let moments = Vec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
         let driven = (implicit(spin, rates, moments, dt) + wet.spin).clamp_length_max(LIMITS.1);
-        let (turning, mean) = match desc.inertia {
+        let driven = if self.solids.near { self.press(dt, &pose, &mobility, driven) } else { driven };
+        let (turning, mean) = match self.desc.inertia {
             Inertia::Full => tumble(inertia, driven, dt),
             Inertia::PreRigid => (driven, driven),
         };

@@ -51,6 +51,10 @@ impl Body {
         let (dt, controls) = (dt.min(LONGEST_TICK), controls.sane());
         self.keep_sane();
         self.read(water);
+        // An engine has contacts of its own.
+        if scheme.ahead == 0.0 {
+            self.solids.ask(water, &self.pose());
+        }
         if self.restart {
             self.measure(0.0, true);
         }
