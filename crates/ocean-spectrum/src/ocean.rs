@@ -209,8 +209,8 @@ impl Ocean {
         self.map.as_ref().map(|placed| &placed.map)
     }
 
-    /// What queries read; derivatives and velocities only where `all` is asked for.
-    pub(crate) fn layers(&self, all: bool) -> Layers<'_> {
+    /// What queries read, made if it is not there.
+    pub(crate) fn layers(&self, reads: Outputs) -> Layers<'_> {
         let mut views = [View::default(); MAX_CASCADES];
         for (c, ((view, modes), layer)) in views.iter_mut().zip(&self.base.modes).zip(&self.layers).enumerate() {
             let size = modes.size as usize;
@@ -220,8 +220,10 @@ impl Ocean {
             view.texels_per_metre = f64::from(modes.size) / f64::from(modes.tile);
             view.band = layer.band;
             view.displacement = texels(Synthesis::displacement);
-            if all {
+            if reads.slopes {
                 view.derivative = texels(Synthesis::derivative);
+            }
+            if reads.motion {
                 view.velocity = texels(Synthesis::velocity);
             }
         }

@@ -57,6 +57,10 @@ pub(crate) struct Group<S: Simd> {
     pub(crate) step: Pair<S>,
     /// `(dDx/dx, dDx/dz, dDz/dx, dDz/dz)` from where it was made.
     pub(crate) gradient: Four<S>,
+    /// `(dh/dx, dh/dz)` at rest, from there too.
+    pub(crate) slope: Pair<S>,
+    /// A step of Newton's shorter than this, metres, is the last and need not be checked.
+    pub(crate) last_step: f32x8<S>,
     /// Radii of the bodies there, if they are what is asked about.
     pub(crate) radius: Option<f32x8<S>>,
 }
@@ -76,6 +80,12 @@ pub(crate) trait Field: Sync {
 
     /// The rest, at the places found.
     fn motion<S: Simd>(&self, simd: S, spot: &Self::Spot<S>, group: &Group<S>) -> Motion<S>;
+
+    /// Its velocity alone: that of [`Self::motion`].
+    #[inline(always)]
+    fn velocity<S: Simd>(&self, simd: S, spot: &Self::Spot<S>, group: &Group<S>) -> Four<S> {
+        self.motion(simd, spot, group).velocity
+    }
 
     /// Mean wavenumber of what the group's bodies feel, weighted by variance, rad/m.
     fn decay<S: Simd>(&self, simd: S, spot: &Self::Spot<S>, group: &Group<S>) -> f32x8<S>;
@@ -109,6 +119,8 @@ impl<S: Simd> Group<S> {
             missed: zero,
             step: pair,
             gradient: four,
+            slope: pair,
+            last_step: f32x8::splat(simd, CHOP_LAST_STEP),
             radius: None,
         }
     }
@@ -128,12 +140,12 @@ struct Search<S: Simd> {
     lanes: u32,
 }
 
-/// Finds the rest points of groups, in turns.
+/// Finds the rest points of groups, in turns. `rough` says of each rough round whether it is with all cascades.
 #[inline(always)]
-pub(crate) fn invert<S: Simd, F: Field>(simd: S, field: &F, groups: &mut [(Group<S>, F::Spot<S>)]) {
+pub(crate) fn invert<S: Simd, F: Field>(simd: S, field: &F, rough: &[bool], groups: &mut [(Group<S>, F::Spot<S>)]) {
     let zero = f32x8::splat(simd, 0.0);
     let mut searches = [Search { at: [zero; 2], lanes: 0 }; GROUPS];
-    for all in [false, true] {
+    for &all in rough {
         for ((group, spot), search) in groups.iter().zip(&mut searches) {
             let [x, _, z, _] = field.rough(simd, spot, group, search.at, all);
             search.at = [zero - x, zero - z];
@@ -169,7 +181,7 @@ impl<S: Simd> Search<S> {
         let (step, length) = newton_step(simd, &gradient, miss, missed);
 
         let searching = simd.from_bitmask_mask32x8(self.lanes.into());
-        let found = searching & length.simd_lt(f32x8::splat(simd, CHOP_LAST_STEP));
+        let found = searching & length.simd_lt(group.last_step);
         let better = found | (searching & missed.simd_lt(group.missed));
         // The tangent planes tell what is at the end of the last step.
         let last = [found.select(step[0], zero), found.select(step[1], zero)];
@@ -184,6 +196,7 @@ impl<S: Simd> Search<S> {
         group.cross = better.select(there[3], group.cross);
         group.missed = better.select(missed, group.missed);
         group.step = [better.select(last[0], group.step[0]), better.select(last[1], group.step[1])];
+        group.slope = [better.select(along_x[1], group.slope[0]), better.select(along_z[1], group.slope[1])];
         for (held, new) in group.gradient.iter_mut().zip(&gradient) {
             *held = better.select(*new, *held);
         }

@@ -31,7 +31,7 @@ pub(crate) struct View<'a> {
     pub(crate) offset: DVec2,
     pub(crate) texels_per_metre: f64,
     pub(crate) displacement: Texels<'a>,
-    /// Empty where only heights are asked for, as is `velocity`.
+    /// Empty where they are not read, as is `velocity`.
     pub(crate) derivative: Texels<'a>,
     pub(crate) velocity: Texels<'a>,
     pub(crate) band: Band,
@@ -51,6 +51,8 @@ pub(crate) struct Spot<S: Simd> {
     base: [Pair<S>; MAX_CASCADES],
     /// What a body at each point feels of each cascade.
     share: [f32x8<S>; MAX_CASCADES],
+    /// The cascades that any of the points feels: so many, the longest.
+    count: usize,
 }
 
 /// Factors on the cascades at the rest points of a group.
@@ -85,8 +87,8 @@ fn of<S: Simd>(simd: S, weights: &Option<Weights>, c: usize) -> Option<f32x8<S>>
 }
 
 impl Layers<'_> {
-    fn used(&self) -> &[View<'_>] {
-        &self.views[..self.count]
+    fn used<S: Simd>(&self, spot: &Spot<S>) -> &[View<'_>] {
+        &self.views[..spot.count]
     }
 
     /// The factors of the map and of the bodies at a place, if there are any.
@@ -143,16 +145,21 @@ impl Field for Layers<'_> {
     #[inline(always)]
     fn spot<S: Simd>(&self, simd: S, group: &Group<S>) -> Spot<S> {
         let zero = f32x8::splat(simd, 0.0);
-        let mut spot = Spot { base: [[zero; 2]; MAX_CASCADES], share: [f32x8::splat(simd, 1.0); MAX_CASCADES] };
+        let share = [f32x8::splat(simd, 1.0); MAX_CASCADES];
+        let mut spot = Spot { base: [[zero; 2]; MAX_CASCADES], share, count: self.count };
         if let Some(radius) = group.radius {
-            for (share, layer) in spot.share.iter_mut().zip(self.used()) {
-                *share = layer.band.share(simd, radius);
+            spot.count = 1;
+            for (c, layer) in self.views[..self.count].iter().enumerate() {
+                spot.share[c] = layer.band.share(simd, radius);
+                if spot.share[c].simd_gt(zero).any_true() {
+                    spot.count = c + 1;
+                }
             }
         }
         if group.lanes == 0 {
             return spot;
         }
-        for (c, layer) in self.used().iter().enumerate() {
+        for (c, layer) in self.views[..spot.count].iter().enumerate() {
             let (offset, scale) = (layer.offset, layer.texels_per_metre);
             let size = layer.displacement.size as f64;
             let [x, z] = group.point;
@@ -167,7 +174,7 @@ impl Field for Layers<'_> {
         let weights = self.weights(spot, group, at, lanes);
         let mut spare = Spare::default();
         let mut sums = [0.0; 4 * LANES];
-        let count = if all { self.count } else { 1 };
+        let count = if all { spot.count } else { 1 };
         for (c, layer) in self.views[..count].iter().enumerate() {
             let weight = of(simd, &weights, c);
             let taps = Taps::rough(simd, self.place(spot, c, at), layer.displacement.size, weight);
@@ -184,7 +191,7 @@ impl Field for Layers<'_> {
         let mut spare = Spare::default();
         let slopes = self.map.map(|_| self.weight_slopes(spot, group, at, lanes));
         let mut sums = [[0.0; 4 * LANES]; 3];
-        for (c, layer) in self.used().iter().enumerate() {
+        for (c, layer) in self.used(spot).iter().enumerate() {
             let mut factor = None;
             if let Some(value) = of(simd, &weights, c) {
                 let mut slope = [f32x8::splat(simd, 0.0); 2];
@@ -210,7 +217,7 @@ impl Field for Layers<'_> {
         let weights = self.weights(spot, group, at, lanes);
         let mut spare = Spare::default();
         let mut sums = [[0.0; 4 * LANES]; 2];
-        for (c, layer) in self.used().iter().enumerate() {
+        for (c, layer) in self.used(spot).iter().enumerate() {
             let weight = of(simd, &weights, c);
             let taps = Taps::new(simd, self.place(spot, c, at), layer.displacement.size, weight);
             for lane in set(lanes) {
@@ -228,11 +235,26 @@ impl Field for Layers<'_> {
     }
 
     #[inline(always)]
+    fn velocity<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>) -> Four<S> {
+        let (at, lanes) = (group.to_rest, group.lanes);
+        let weights = self.weights(spot, group, at, lanes);
+        let mut spare = Spare::default();
+        let mut sums = [0.0; 4 * LANES];
+        for (c, layer) in self.used(spot).iter().enumerate() {
+            let taps = Taps::new(simd, self.place(spot, c, at), layer.displacement.size, of(simd, &weights, c));
+            for lane in set(lanes) {
+                taps.add(simd, lane, &layer.velocity, &mut spare, &mut sums);
+            }
+        }
+        fields(simd, &sums)
+    }
+
+    #[inline(always)]
     fn decay<S: Simd>(&self, simd: S, spot: &Spot<S>, group: &Group<S>) -> f32x8<S> {
         let weights = self.weights(spot, group, group.to_rest, group.lanes);
         let zero = f32x8::splat(simd, 0.0);
         let (mut sum, mut weighted) = (f32x8::splat(simd, f32::MIN_POSITIVE), zero);
-        for (c, layer) in self.used().iter().enumerate() {
+        for (c, layer) in self.used(spot).iter().enumerate() {
             let weight = of(simd, &weights, c).unwrap_or(spot.share[c]);
             let variance = weight * weight * layer.band.variance;
             sum += variance;
@@ -251,7 +273,7 @@ impl Layers<'_> {
         let slopes = self.weight_slopes(spot, group, at, group.lanes);
         let mut spare = Spare::default();
         let mut sums: [Sums; 2] = [[0.0; 4 * LANES]; 2];
-        for (c, layer) in self.used().iter().enumerate() {
+        for (c, layer) in self.used(spot).iter().enumerate() {
             for (sums, slopes) in sums.iter_mut().zip(&slopes) {
                 let slope = f32x8::load_array(simd, slopes[c]);
                 let taps = Taps::new(simd, self.place(spot, c, at), layer.displacement.size, Some(slope));

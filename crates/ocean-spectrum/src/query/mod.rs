@@ -115,6 +115,12 @@ pub(crate) trait Answer: Copy + Sync {
     /// One point's answer.
     type Out: Send;
 
+    /// The arrays that it reads.
+    const READS: Outputs;
+
+    /// The rough rounds before Newton's, as [`invert`] takes them; by default those of the GPU.
+    const ROUGH: &'static [bool] = &[false, true];
+
     /// Tells a group what concerns its points beside their places; `first` is the index of the first of them.
     #[inline(always)]
     fn prepare<S: Simd>(&self, _simd: S, _first: usize, _group: &mut Group<S>) {}
@@ -151,7 +157,7 @@ fn answer<S: Simd, F: Field, A: Answer>(simd: S, field: &F, how: A, first: usize
             *spot = field.spot(simd, group);
         }
         let groups = &mut groups[..count];
-        invert(simd, field, groups);
+        invert(simd, field, A::ROUGH, groups);
         for ((group, spot), out) in groups.iter().zip(out.chunks_mut(LANES)) {
             how.store(simd, field, spot, group, out);
         }
@@ -163,6 +169,8 @@ pub(crate) struct Heights;
 
 impl Answer for Heights {
     type Out = f32;
+
+    const READS: Outputs = Outputs { slopes: false, motion: false };
 
     #[inline(always)]
     fn store<S: Simd, F: Field>(&self, _simd: S, _field: &F, _spot: &F::Spot<S>, group: &Group<S>, out: &mut [f32]) {
@@ -176,6 +184,8 @@ pub(crate) struct Samples;
 
 impl Answer for Samples {
     type Out = OceanSample;
+
+    const READS: Outputs = Outputs::ALL;
 
     #[inline(always)]
     fn store<S: Simd, F: Field>(
@@ -223,11 +233,11 @@ impl Answer for Samples {
 }
 
 impl Ocean {
-    /// Answers as the description says; derivatives and velocities are there only where `all` is asked for.
-    pub(crate) fn answer<A: Answer>(&self, level: Level, all: bool, how: A, points: &[Vec2], out: &mut [A::Out]) {
+    /// Answers as the description says, from the arrays that the answers read.
+    pub(crate) fn answer<A: Answer>(&self, level: Level, how: A, points: &[Vec2], out: &mut [A::Out]) {
         match self.direct() {
             Some(direct) => run(level, &direct, how, points, out),
-            None => run(level, &self.layers(all), how, points, out),
+            None => run(level, &self.layers(A::READS), how, points, out),
         }
     }
 
@@ -236,7 +246,7 @@ impl Ocean {
     pub fn heights(&mut self, points: &[Vec2], t: f64, out: &mut [f32]) {
         self.set_time(t);
         self.make(Outputs::default());
-        self.answer(Level::new(), false, Heights, points, out);
+        self.answer(Level::new(), Heights, points, out);
     }
 
     /// [`Ocean::sample`] at a time, seconds: [`Ocean::set_time`] first.
@@ -256,13 +266,13 @@ impl Ocean {
     /// The sea at local positions (x, z), metres, at the time set, on rayon's threads; as many answers as the shorter
     /// slice holds. Calm water where a position is not finite or farther than 10^8 m.
     pub fn sample(&self, points: &[Vec2], out: &mut [OceanSample]) {
-        self.answer(Level::new(), true, Samples, points, out);
+        self.answer(Level::new(), Samples, points, out);
     }
 
     /// Height at a local position, metres; see [`Ocean::sample`].
     pub fn height(&self, point: Vec2) -> f32 {
         let mut out = [0.0];
-        self.answer(Level::new(), false, Heights, &[point], &mut out);
+        self.answer(Level::new(), Heights, &[point], &mut out);
         out[0]
     }
 }

@@ -4,9 +4,9 @@ use fearless_simd::{Level, Simd, f32x8, prelude::*};
 use glam::{Vec2, Vec3};
 
 use crate::query::Answer;
-use crate::query::invert::{Field, Group};
+use crate::query::invert::{Field, Group, Motion};
 use crate::query::kernel::{LANES, stored};
-use crate::{CascadeModes, Ocean};
+use crate::{CascadeModes, Ocean, Outputs};
 
 /// The sea around a point as a small body feels it: a plane with its motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -22,6 +22,14 @@ pub struct OceanPatch {
     /// Wavenumber k with which the motion fades with depth as e^(-k d), rad/m; see [`Ocean::decay_wavenumber`].
     pub decay_wavenumber: f32,
 }
+
+/// A cascade of which bodies feel less than this share is not read for them.
+const LEAST_SHARE: f32 = 0.02;
+
+/// The last step on the way to the rest point as a share of the body's radius, and at most, metres: over that way the
+/// surface is a plane as far as the body feels, whose mean over its area is rougher by far.
+const LAST_STEP: f32 = 0.2;
+const LONGEST_STEP: f32 = 0.3;
 
 /// Means over the energy of one cascade.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -54,10 +62,11 @@ impl Band {
         Self { variance: sum, wavenumber: weighted / sum }
     }
 
-    /// Share of the waves that bodies of these radii feel.
+    /// Share of the waves that bodies of these radii feel, 0 where it is next to nothing.
     #[inline(always)]
     pub(crate) fn share<S: Simd>(&self, simd: S, radius: f32x8<S>) -> f32x8<S> {
-        disc_mean(simd, radius * self.wavenumber)
+        let share = disc_mean(simd, radius * self.wavenumber);
+        share.simd_gt(f32x8::splat(simd, LEAST_SHARE)).select(share, f32x8::splat(simd, 0.0))
     }
 }
 
@@ -93,13 +102,21 @@ pub(crate) struct Patches<'a> {
 impl Answer for Patches<'_> {
     type Out = OceanPatch;
 
+    const READS: Outputs = Outputs { slopes: false, motion: true };
+
+    // The last step is a long one: Newton's method gets there from farther away.
+    const ROUGH: &'static [bool] = &[false];
+
     #[inline(always)]
     fn prepare<S: Simd>(&self, simd: S, first: usize, group: &mut Group<S>) {
         let mut radius = [0.0; LANES];
         for (held, &given) in radius.iter_mut().zip(self.radii.iter().skip(first)) {
             *held = given.max(0.0);
         }
-        group.radius = Some(f32x8::load_array(simd, radius));
+        let radius = f32x8::load_array(simd, radius);
+        let long = (radius * LAST_STEP).min(f32x8::splat(simd, LONGEST_STEP));
+        group.last_step = group.last_step.max(long);
+        group.radius = Some(radius);
     }
 
     #[inline(always)]
@@ -111,7 +128,11 @@ impl Answer for Patches<'_> {
         group: &Group<S>,
         out: &mut [OceanPatch],
     ) {
-        let motion = field.motion(simd, spot, group);
+        // The gradient is that of the last reading: no array of its own need be made for it.
+        let [xx, xz, zx, zz] = group.gradient;
+        let [x, z] = group.slope;
+        let velocity = field.velocity(simd, spot, group);
+        let motion = Motion { gradient: [x, z, xx, zz], cross: [xz, zx], velocity };
         let [x, z] = motion.world_slope(simd);
         let gradient = [x.to_array(), z.to_array()];
         let velocity = stored(motion.velocity);
@@ -130,15 +151,17 @@ impl Answer for Patches<'_> {
 
 impl Ocean {
     /// The sea under bodies of the given radii (metres) at local positions, at the time set, on rayon's threads; as many
-    /// answers as the shortest slice holds.
+    /// answers as the shortest slice holds. It reads displacement and motion, not the slopes
+    /// ([`Ocean::prepare`]).
     ///
     /// A body does not feel waves much shorter than itself, since their rise and fall cancels over its area: each
-    /// cascade counts by the mean that is left over a disc of that radius at the cascade's mean wavenumber. With
-    /// radius 0 the answer is that of [`Ocean::sample`]. Calm water where the position is not finite or farther than
+    /// cascade counts by the mean that is left over a disc of that radius at the cascade's mean wavenumber, and not at all
+    /// where that is below 2 %. With radius 0 the answer is nearly that of [`Ocean::sample`]; the gradient is that
+    /// of the kernel between the heights. Calm water where the position is not finite or farther than
     /// 10^8 m; a radius that is negative or not a number counts as 0.
     pub fn patches(&self, centers: &[Vec2], radii: &[f32], out: &mut [OceanPatch]) {
         let count = radii.len().min(centers.len());
-        self.answer(Level::new(), true, Patches { radii }, &centers[..count], out);
+        self.answer(Level::new(), Patches { radii }, &centers[..count], out);
     }
 
     /// The sea under one body; see [`Ocean::patches`].
