@@ -23,17 +23,17 @@ use crate::source::{Column, Displacement};
 use crate::{BodyDesc, BodyError, ForcePoint, MooringLine, SurfaceSample};
 
 /// Longest tick in s; what is longer is cut.
-const LONGEST_TICK: f32 = 1.0;
+pub(crate) const LONGEST_TICK: f32 = 1.0;
 /// Most sub-steps of one tick; beyond, stiffness is damped implicitly instead.
-const MOST_SUBSTEPS: f32 = 32.0;
+pub(crate) const MOST_SUBSTEPS: f32 = 32.0;
 /// Sub-steps keep the body's highest frequency times their length below this (semi-implicit Euler is stable below 2).
-const FINEST: f32 = 0.5;
+pub(crate) const FINEST: f32 = 0.5;
 /// Fastest a body may move (m/s), turn (rad/s) and farthest it may be from the local origin (m).
-const LIMITS: (f32, f32, f32) = (200.0, 60.0, 1.0e6);
+pub(crate) const LIMITS: (f32, f32, f32) = (200.0, 60.0, 1.0e6);
 /// Immersed volume counts for drag and added mass up to this multiple of the volume at rest.
-const DEEPEST: f32 = 2.0;
+pub(crate) const DEEPEST: f32 = 2.0;
 /// A step farther than this many body lengths was a teleport: it tells the water nothing.
-const TELEPORT: f32 = 4.0;
+pub(crate) const TELEPORT: f32 = 4.0;
 
 /// How a sub-step moves the pose.
 #[derive(Clone, Copy, Debug)]

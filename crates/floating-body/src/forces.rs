@@ -70,15 +70,19 @@ pub(crate) fn read_points(
     }
 }
 
-/// Fills `out` from one patch about `center`.
-pub(crate) fn read_patch(water: &dyn WaterSurface, center: Vec2, radius: f32, at: &[Vec2], out: &mut [LocalWater]) {
-    let SurfacePatch { height, gradient, own, own_gradient, velocity, acceleration, decay_wavenumber, level } =
-        water.patch(center, radius);
+/// The plane of a patch read about `center`, and the slope of its height without the home grid's waves.
+pub(crate) fn read_plane(center: Vec2, patch: SurfacePatch) -> (LocalWater, Vec2) {
+    let SurfacePatch { height, gradient, own, own_gradient, velocity, acceleration, decay_wavenumber, level } = patch;
     let slope = gradient + own_gradient;
     let normal = Vec3::new(-slope.x, 1.0, -slope.y).normalize_or(Vec3::Y);
     let sample = SurfaceSample { height, own, normal, velocity, acceleration, decay_wavenumber, level };
-    let plane = LocalWater::new(center, &sample);
     let gradient = if gradient.is_finite() { gradient.clamp_length_max(STEEPEST) } else { Vec2::ZERO };
+    (LocalWater::new(center, &sample), gradient)
+}
+
+/// Fills `out` from one patch about `center`.
+pub(crate) fn read_patch(water: &dyn WaterSurface, center: Vec2, radius: f32, at: &[Vec2], out: &mut [LocalWater]) {
+    let (plane, gradient) = read_plane(center, water.patch(center, radius));
     for (p, o) in at.iter().zip(out) {
         let away = *p - center;
         let height = plane.height + gradient.dot(away);

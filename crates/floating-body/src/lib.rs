@@ -32,6 +32,7 @@ mod engine;
 mod error;
 #[cfg(feature = "mesh-files")]
 mod files;
+mod fleet;
 mod forces;
 mod hull;
 mod mooring;
@@ -48,6 +49,7 @@ pub use desc::{BodyDesc, ForcePoints, Inertia, Radiation, Sampling};
 pub use drag::Drag;
 pub use engine::{Controls, Engine};
 pub use error::BodyError;
+pub use fleet::{Activity, Fleet, FleetDesc, PieceId};
 pub use hull::{Closure, Hull, HullKind, TriMesh, Waterline};
 pub use mooring::MooringLine;
 pub use point::{ForcePoint, PointShape};

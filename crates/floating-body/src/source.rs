@@ -32,9 +32,9 @@ pub(crate) struct Column {
 }
 
 /// Moves shorter than this share of the radius wait until they have added up.
-const NEAR: f32 = 0.005;
+pub(crate) const NEAR: f32 = 0.005;
 /// So do changes smaller than this share of the point's volume.
-const QUIET: f32 = 1.0e-6;
+pub(crate) const QUIET: f32 = 1.0e-6;
 
 /// Discs told to the water are wider than their columns by this factor, so that they overlap and a moving hull makes one
 /// wake, not one per column.

@@ -65,6 +65,11 @@ impl Body {
         self.immersed
     }
 
+    /// Squares of the highest frequencies in heave and in rotation, dry, rad^2/s^2.
+    pub(crate) fn stiffness(&self) -> Vec2 {
+        self.stiffness
+    }
+
     /// How often a state that was not finite had to be replaced.
     pub fn resets(&self) -> u32 {
         self.resets
