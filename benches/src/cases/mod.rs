@@ -11,6 +11,7 @@ mod dispersive_waves;
 mod energy;
 mod facade;
 mod facade_grids;
+mod fleet_gpu;
 mod grid_border;
 mod grid_current;
 mod grid_edges;
@@ -109,6 +110,7 @@ pub const CASES: &[Case] = &[
     grid_medium::COST,
     body_float::DRAFT,
     body_float::TICK,
+    fleet_gpu::FLEET,
     heave_decay::HEAVE,
     sinkage::SINKAGE,
     rapier::DRAFT,
