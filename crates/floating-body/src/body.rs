@@ -64,6 +64,12 @@ pub struct Body {
     waterline: Waterline,
     /// Half the bounding box's diagonal, m.
     reach: f32,
+    /// Radius of the disc with the waterplane's area, m; `reach` without one.
+    footprint: f32,
+    /// Of all force points, m^3.
+    volume: f32,
+    /// By how much radiation fades per volume that goes under, 1/m^3: from half the reserve of buoyancy on.
+    sheds: f32,
     /// Bounds of the square of the frequencies in heave and in rotation when dry, rad^2/s^2.
     stiffness: Vec2,
     state: BodyState,
@@ -120,12 +126,18 @@ impl Body {
         let stiffness = stiffness(&points, &desc, full);
         let (low, high) = desc.hull.bounds();
         let count = points.len() + usize::from(desc.engine.is_some());
+        let reach = 0.5 * (high - low).length();
+        let volume: f32 = points.iter().map(|p| p.volume).sum();
+        let footprint = if waterline.area > 0.0 { (waterline.area / std::f32::consts::PI).sqrt() } else { reach };
         let state = BodyState::at_rest(Vec3::new(0.0, desc.center_of_mass.y - waterline.level, 0.0));
         let body = Self {
             inertia,
             mismatch: (most - least) / mean,
+            reach,
+            footprint,
+            volume,
+            sheds: 2.0 / (volume - waterline.volume).max(1.0e-3 * volume),
             waterline,
-            reach: 0.5 * (high - low).length(),
             stiffness,
             state,
             good: state,

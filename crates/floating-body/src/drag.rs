@@ -67,8 +67,9 @@ impl Drag {
         }
     }
 
-    /// Decay rates times mass (N s/m) along the axes for the velocity `rel` through the water (hull axes).
-    pub(crate) fn rates(&self, rel: Vec3) -> Vec3 {
+    /// Quadratic resistance over the speed it acts against (N s/m) along the axes, for the velocity `rel` through the
+    /// water (hull axes).
+    pub(crate) fn quadratic_rates(&self, rel: Vec3) -> Vec3 {
         let all = rel.length_squared();
         let speed = |own: f32, cross: f32| (own * own + cross * cross * (all - own * own).max(0.0)).sqrt();
         let speeds = Vec3::new(
@@ -76,16 +77,14 @@ impl Drag {
             speed(rel.y, self.cross_flow.y),
             speed(rel.z, self.cross_flow.z),
         );
-        self.linear + self.quadratic * speeds
-    }
-
-    /// The same about the axes (N m s), for the rotation `spin` and the speed through the water.
-    pub(crate) fn angular_rates(&self, spin: Vec3, speed: f32) -> Vec3 {
-        self.angular_linear + self.angular_quadratic * spin.abs() + self.angular_forward * speed
+        self.quadratic * speeds
     }
 }
 
-/// One implicit step of `m v' = -c v`: `v / (1 + dt c/m)`, which never overshoots, however stiff.
-pub(crate) fn implicit(v: Vec3, rate: Vec3, mass: Vec3, dt: f32) -> Vec3 {
-    v / (Vec3::ONE + rate / mass * dt)
+/// One implicit step of `m v' = -(linear + quadratic |v|) v`, where `rate` is `quadratic |v|` at the start: the backward
+/// Euler step in closed form, which never overshoots, however stiff, and ends at the terminal speed.
+pub(crate) fn implicit(v: Vec3, linear: Vec3, rate: Vec3, mass: Vec3, dt: f32) -> Vec3 {
+    let whole = Vec3::ONE + linear / mass * dt;
+    let root = whole * whole + rate / mass * (4.0 * dt);
+    v * 2.0 / (whole + Vec3::new(root.x.sqrt(), root.y.sqrt(), root.z.sqrt()))
 }

@@ -27,22 +27,27 @@ const STEEPEST: f32 = 1.0;
 const FASTEST: f32 = 50.0;
 
 impl LocalWater {
-    /// Sampled numbers, made harmless: NaN becomes calm water.
-    fn new(at: Vec2, s: &SurfaceSample) -> Self {
+    /// Sampled numbers, made harmless: NaN becomes calm water. The wave is averaged over a disc with the square of a
+    /// radius `footprint`, m^2.
+    fn new(at: Vec2, s: &SurfaceSample, footprint: f32) -> Self {
         let finite = s.height.is_finite() && s.level.is_finite() && s.own.is_finite() && s.velocity.is_finite();
         if !(finite && s.normal.is_finite() && s.acceleration.is_finite() && s.decay_wavenumber.is_finite()) {
             return Self { at, ..Self::default() };
         }
         let slope = Vec2::new(-s.normal.x, -s.normal.z) / s.normal.y.max(0.1);
+        let (decay, level) = (s.decay_wavenumber.clamp(0.0, 100.0), s.level.clamp(-1.0e4, 1.0e4));
+        let mean = mean_over_disc(decay * decay * footprint);
+        let velocity = s.velocity.clamp_length_max(FASTEST);
         Self {
             at,
-            height: s.height.clamp(-1.0e4, 1.0e4),
+            height: level + (s.height.clamp(-1.0e4, 1.0e4) - level) * mean,
             own: s.own.clamp(-100.0, 100.0),
-            slope: slope.clamp_length_max(STEEPEST),
-            velocity: s.velocity.clamp_length_max(FASTEST),
-            acceleration: s.acceleration.clamp(-0.9 * GRAVITY, 3.0 * GRAVITY),
-            decay: s.decay_wavenumber.clamp(0.0, 100.0),
-            level: s.level.clamp(-1.0e4, 1.0e4),
+            slope: slope.clamp_length_max(STEEPEST) * mean,
+            // A current flows level and is no wave.
+            velocity: Vec3::new(velocity.x, velocity.y * mean, velocity.z),
+            acceleration: s.acceleration.clamp(-0.9 * GRAVITY, 3.0 * GRAVITY) * mean,
+            decay,
+            level,
         }
     }
 
@@ -57,16 +62,24 @@ impl LocalWater {
     }
 }
 
-/// Fills `out` from one sample per point.
+/// What is left of a regular wave averaged over a disc of radius r, by `(k r)^2`: `2 J1(k r)/(k r)`, here `exp(-(k r)^2/8)`,
+/// which is no more than .03 above it up to k r = 2.
+fn mean_over_disc(square: f32) -> f32 {
+    if square < 8.0e-3 { 1.0 } else { libm::expf(-0.125 * square) }
+}
+
+/// Fills `out` from one sample per point, averaged over what the point stands for; past the points (the propeller) as it is.
 pub(crate) fn read_points(
     water: &dyn WaterSurface,
     at: &[Vec2],
+    points: &[ForcePoint],
     samples: &mut [SurfaceSample],
     out: &mut [LocalWater],
 ) {
     water.sample(at, samples);
-    for ((p, s), o) in at.iter().zip(&*samples).zip(out) {
-        *o = LocalWater::new(*p, s);
+    let footprints = points.iter().map(ForcePoint::footprint).chain(std::iter::once(0.0));
+    for (((p, s), o), footprint) in at.iter().zip(&*samples).zip(out).zip(footprints) {
+        *o = LocalWater::new(*p, s, footprint);
     }
 }
 
@@ -77,7 +90,7 @@ pub(crate) fn read_plane(center: Vec2, patch: SurfacePatch) -> (LocalWater, Vec2
     let normal = Vec3::new(-slope.x, 1.0, -slope.y).normalize_or(Vec3::Y);
     let sample = SurfaceSample { height, own, normal, velocity, acceleration, decay_wavenumber, level };
     let gradient = if gradient.is_finite() { gradient.clamp_length_max(STEEPEST) } else { Vec2::ZERO };
-    (LocalWater::new(center, &sample), gradient)
+    (LocalWater::new(center, &sample, 0.0), gradient)
 }
 
 /// Fills `out` from one patch about `center`.
@@ -120,6 +133,7 @@ pub(crate) struct Pose {
 pub(crate) fn immerse(points: &[ForcePoint], waters: &[LocalWater], pose: &Pose, own: bool, density: f32) -> Wetness {
     let mut w = Wetness::default();
     let (mut turning, mut arm) = (Vec3::ZERO, Vec3::ZERO);
+    let (mut place, mut stream) = (Vec3::ZERO, Vec3::ZERO);
     let up = pose.rotation.transpose();
     for (p, water) in points.iter().zip(waters) {
         let r = pose.rotation * p.position;
@@ -146,12 +160,18 @@ pub(crate) fn immerse(points: &[ForcePoint], waters: &[LocalWater], pose: &Pose,
         let flow = up * (water.velocity + rise);
         turning += p.position.cross(flow) * volume;
         arm += Vec3::splat(p.position.length_squared()) * volume - p.position * p.position * volume;
+        place += p.position * volume;
+        stream += flow * volume;
     }
     if w.volume > 0.0 {
         w.velocity /= w.volume;
         w.acceleration /= w.volume;
         w.slope /= w.volume;
-        w.spin = (turning / arm.max(Vec3::splat(1.0e-6 * w.volume))).clamp_length_max(20.0);
+        // About the centre of what is immersed: a uniform stream does not turn.
+        let floor = Vec3::splat(1.0e-3 * 0.5 * (arm.x + arm.y + arm.z) + 1.0e-6 * w.volume);
+        let about = Vec3::splat(place.length_squared()) - place * place;
+        turning -= place.cross(stream) / w.volume;
+        w.spin = (turning / (arm - about / w.volume).max(floor)).clamp_length_max(20.0);
     }
     w
 }

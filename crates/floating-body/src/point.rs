@@ -57,6 +57,12 @@ impl ForcePoint {
         check_range("points.volume", self.volume, 1.0e-9, 1.0e9, "in [1e-9, 1e9] m^3").map(drop)
     }
 
+    /// Square of the radius of the disc with the point's area seen from above, m^2.
+    pub(crate) fn footprint(&self) -> f32 {
+        let area = if self.shape == PointShape::Ball { 1.0 } else { 4.0 * std::f32::consts::FRAC_1_PI };
+        area * self.half.x * self.half.z
+    }
+
     /// The immersed part when the centre is `depth` m under the surface (negative above) with normal `n` in the body's
     /// frame (unit).
     pub(crate) fn immersion(&self, depth: f32, n: Vec3) -> Immersion {

@@ -232,7 +232,17 @@ impl WaterSurface for AiryWave {
         }
     }
 
-    fn patch(&self, center: Vec2, _radius: f32) -> SurfacePatch {
-        self.at(center)
+    fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch {
+        let p = self.at(center);
+        let x = f64::from(p.decay_wavenumber) * f64::from(radius);
+        // The mean of a wave over a disc.
+        let mean = if x > 1.0e-3 { (2.0 * libm::j1(x) / x) as f32 } else { 1.0 };
+        SurfacePatch {
+            height: self.level + (p.height - self.level) * mean,
+            gradient: p.gradient * mean,
+            velocity: p.velocity * mean,
+            acceleration: p.acceleration * mean,
+            ..p
+        }
     }
 }

@@ -37,10 +37,12 @@ impl Body {
             *at = Vec2::new(world.x, world.z);
         }
         match self.desc.sampling {
-            Sampling::Points => read_points(water, &self.at, &mut self.samples, &mut self.waters),
+            Sampling::Points => {
+                read_points(water, &self.at, &self.points, &mut self.samples, &mut self.waters);
+            }
             Sampling::Patch => {
                 let center = Vec2::new(pose.position.x, pose.position.z);
-                read_patch(water, center, self.reach, &self.at, &mut self.waters);
+                read_patch(water, center, self.footprint, &self.at, &mut self.waters);
             }
         }
     }
@@ -68,6 +70,8 @@ impl Body {
         let desc = &self.desc;
         let wet = self.wetness(&pose);
         let share = (wet.volume / self.waterline.volume).min(DEEPEST);
+        // What is far below the surface makes no waves.
+        let radiating = ((self.volume - wet.volume) * self.sheds).clamp(0.0, 1.0);
         let to_body = pose.rotation.transpose();
         let (coefficients, push) = self.radiation();
         let axes = resistance_axes(pose.rotation, wet.slope, desc.hull.is_blunt());
@@ -90,8 +94,10 @@ impl Body {
         // What the sub-steps cannot resolve is held back as an implicit step would.
         let held = 1.0 + (self.stiffness.x * dt * dt - FINEST * FINEST).max(0.0);
         let pushed = velocity + drive / (whole * held) * dt - water;
-        let rates = (desc.drag.rates(pushed) + coefficients.damping) * share;
-        let slowed = implicit(pushed, rates, whole, dt);
+        // A bottom that is wet is wet, however deep; sides are wet as far as they are immersed.
+        let sides = Vec3::new(share, share.min(1.0), share);
+        let linear = desc.drag.linear * share + coefficients.damping * (share * radiating);
+        let slowed = implicit(pushed, linear, desc.drag.quadratic_rates(pushed) * sides, whole, dt);
         let sideways = whole.z * (slowed.z - pushed.z) / dt;
         self.state.velocity = axes * (slowed + water);
 
@@ -103,9 +109,11 @@ impl Body {
         let held = 1.0 + (self.stiffness.y * dt * dt - FINEST * FINEST).max(0.0);
         let turning = start * self.state.angular_velocity + mobility.inverse * torque * (dt / held);
         let spin = turning - wet.spin;
-        let rates = (desc.drag.angular_rates(spin, slowed.length()) + coefficients.angular_damping) * share;
+        let linear = (desc.drag.angular_linear + desc.drag.angular_forward * slowed.length()) * share
+            + coefficients.angular_damping * (share * radiating);
+        let rates = desc.drag.angular_quadratic * spin.abs() * share;
         let moments = Vec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
-        let driven = (implicit(spin, rates, moments, dt) + wet.spin).clamp_length_max(LIMITS.1);
+        let driven = (implicit(spin, linear, rates, moments, dt) + wet.spin).clamp_length_max(LIMITS.1);
         let driven = if self.solids.near { self.press(dt, &pose, &mobility, driven) } else { driven };
         let (turning, mean) = match self.desc.inertia {
             Inertia::Full => tumble(inertia, driven, dt),
