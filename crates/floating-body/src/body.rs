@@ -17,7 +17,7 @@ use self::touch::Solids;
 use crate::desc::Inertia;
 use crate::forces::LocalWater;
 use crate::hull::Waterline;
-use crate::radiation::Radiator;
+use crate::radiation::{Memory, Radiator};
 use crate::rotation::{normalized, principal_moments};
 use crate::source::{Column, Displacement};
 use crate::{BodyDesc, BodyError, ForcePoint, MooringLine, SurfaceSample};
@@ -89,6 +89,8 @@ pub struct Body {
     /// Bed and quays.
     solids: Solids,
     immersed: f32,
+    /// Of the waves it made, where no grid carries them.
+    memory: Option<Box<Memory>>,
     /// What it exchanges with a grid that carries textures.
     radiator: Option<Box<Radiator>>,
     /// Cells for which that was asked last, m; 0 before.
@@ -130,7 +132,7 @@ impl Body {
         let volume: f32 = points.iter().map(|p| p.volume).sum();
         let footprint = if waterline.area > 0.0 { (waterline.area / std::f32::consts::PI).sqrt() } else { reach };
         let state = BodyState::at_rest(Vec3::new(0.0, desc.center_of_mass.y - waterline.level, 0.0));
-        let body = Self {
+        let mut body = Self {
             inertia,
             mismatch: (most - least) / mean,
             reach,
@@ -152,6 +154,7 @@ impl Body {
             tensions: Vec::new(),
             solids: Solids::new(&desc),
             immersed: 0.0,
+            memory: None,
             radiator: None,
             fitted_for: 0.0,
             feels_own: false,
@@ -160,6 +163,7 @@ impl Body {
             desc,
         };
         body.check_tables()?;
+        body.memory = if body.desc.memory { Memory::new(&body.afloat()).map(Box::new) } else { None };
         Ok(body)
     }
 

@@ -66,8 +66,20 @@ fn moving_through_still_water_is_standing_in_a_current() {
 }
 
 /// Hulme (1982), table 1: ka, added mass and damping over omega in units of the displaced mass.
-const HULME: [[f64; 3]; 4] =
-    [[0.2, 0.7938, 0.2793], [0.6, 0.5381, 0.3271], [0.8, 0.4698, 0.2899], [1.0, 0.4284, 0.2484]];
+const HULME: [[f64; 3]; 12] = [
+    [0.05, 0.8764, 0.1036],
+    [0.1, 0.8627, 0.1816],
+    [0.2, 0.7938, 0.2793],
+    [0.3, 0.7157, 0.3254],
+    [0.4, 0.6452, 0.3410],
+    [0.6, 0.5381, 0.3271],
+    [0.8, 0.4698, 0.2899],
+    [1.0, 0.4284, 0.2484],
+    [1.2, 0.4047, 0.2096],
+    [2.0, 0.3884, 0.1031],
+    [3.0, 0.4111, 0.0452],
+    [4.0, 0.4322, 0.0219],
+];
 
 /// Amplitude of heave over the wave's amplitude by linear theory, the excitation by Haskind's relation.
 fn heave_by_theory(radius: f64, [ka, added, damping]: [f64; 3]) -> f64 {
@@ -111,11 +123,65 @@ fn hemisphere(radius: f32) -> BodyDesc {
 #[test]
 fn a_hemisphere_heaves_in_waves_as_linear_theory_says() {
     for sampling in [Sampling::Patch, Sampling::Points] {
-        for row in HULME {
-            let mut desc = hemisphere(5.0);
-            desc.sampling = sampling;
-            let (found, expected) = (heave_in_waves(&desc, row[0] / 5.0), heave_by_theory(5.0, row));
-            assert!((found / expected - 1.0).abs() < 0.06, "{sampling:?}, ka {}: {found} against {expected}", row[0]);
+        for (memory, most, bound) in [(false, 1.0, 0.06), (true, 1.2, 0.1)] {
+            for row in HULME.into_iter().filter(|row| (0.2..=most).contains(&row[0])) {
+                let desc = BodyDesc { sampling, memory, ..hemisphere(5.0) };
+                let (found, expected) = (heave_in_waves(&desc, row[0] / 5.0), heave_by_theory(5.0, row));
+                let error = (found / expected - 1.0).abs();
+                assert!(error < bound, "{sampling:?}, memory {memory}, ka {}: {found} of {expected}", row[0]);
+            }
         }
     }
+}
+
+/// Share of the release of a hemisphere of 5 m that is left after `time` s: the Fourier integral of linear theory.
+fn left(time: f64) -> f64 {
+    let (mass, stiffness) = (2.0 / 3.0 * PI * 125e3, 9810.0 * PI * 25.0);
+    let (width, mut sum) = (1e-3, 0.0);
+    for i in 0..5000 {
+        let omega = (f64::from(i) + 0.5) * width;
+        let ka = omega * omega * 5.0 / 9.81;
+        let rows = |k: usize, end: [f64; 2]| {
+            let next = HULME.iter().position(|row| row[0] >= ka);
+            let (low, high) = match next {
+                Some(0) => ([0.0, end[0]], [HULME[0][0], HULME[0][k]]),
+                Some(n) => ([HULME[n - 1][0], HULME[n - 1][k]], [HULME[n][0], HULME[n][k]]),
+                None => ([4.0, HULME[11][k]], [12.0, end[1]]),
+            };
+            low[1] + ((ka - low[0]) / (high[0] - low[0])).min(1.0) * (high[1] - low[1])
+        };
+        let (whole, damping) = (mass * (1.0 + rows(1, [0.831, 0.5])), mass * omega * rows(2, [0.0, 0.0]));
+        let (re, im) = (stiffness - omega * omega * whole, omega * damping);
+        sum += width * (damping * re + omega * whole * im) / (re * re + im * im) * (omega * time).cos();
+    }
+    2.0 / PI * sum
+}
+
+#[test]
+fn a_released_hemisphere_swings_to_rest_as_theory_with_memory_says() {
+    // (memory, ticks a second, bound): ticks of any length serve, and so do those that are too long for memory.
+    for (memory, rate, bound) in
+        [(true, 60_u16, 0.015), (true, 240, 0.015), (true, 20, 0.03), (false, 60, 0.05), (true, 1, 0.4)]
+    {
+        let mut body = Body::new(BodyDesc { memory, ..hemisphere(5.0) }).unwrap();
+        body.set_state(BodyState::at_rest(Vec3::Y * 0.1));
+        let (mut square, mut count) = (0.0, 0.0);
+        for tick in 1..=12 * rate {
+            body.step(1.0 / f32::from(rate), &FlatWater::default(), &Controls::default());
+            let error = f64::from(body.state().position.y) / 0.1 - left(f64::from(tick) / f64::from(rate));
+            (square, count) = (square + error * error, count + 1.0);
+        }
+        let error = f64::sqrt(square / count);
+        assert!(error < bound, "memory {memory}, {rate} Hz: {error}");
+    }
+}
+
+#[test]
+fn a_teleport_leaves_the_memory_behind() {
+    let mut body = Body::new(BodyDesc { memory: true, ..hemisphere(5.0) }).unwrap();
+    body.set_state(BodyState::at_rest(Vec3::Y));
+    run(&mut body, 1.0, &FlatWater::default());
+    body.set_state(BodyState::at_rest(Vec3::X * 1.0e4));
+    run(&mut body, 1.0, &FlatWater::default());
+    assert!(body.state().position.y.abs() < 1e-6 && body.state().velocity.length() < 1e-6, "{:?}", body.state());
 }

@@ -17,7 +17,7 @@ impl Body {
         Textures::check(&self.afloat())
     }
 
-    fn afloat(&self) -> Afloat<'_> {
+    pub(super) fn afloat(&self) -> Afloat<'_> {
         let (d, w) = (&self.desc, &self.waterline);
         let c = d.center_of_mass;
         Afloat {
@@ -81,9 +81,10 @@ impl Body {
         radiator.on
     }
 
-    /// Added mass and damping that act, and the push of the grid's waves through the textures: force up in N, torque about
-    /// the hull's x and z in N m.
-    pub(super) fn radiation(&self) -> (Coefficients, Vec3) {
+    /// Added mass and damping that act in a sub-step of `dt` s, and the push of the grid's waves through the textures, or of
+    /// the waves that are remembered, which are felt `afloat`, 0 to 1: force up in N, torque about the hull's x and z in
+    /// N m.
+    pub(super) fn radiation(&self, dt: f32, afloat: f32) -> (Coefficients, Vec3) {
         let own = self.desc.coefficients;
         match &self.radiator {
             Some(radiator) if radiator.on => {
@@ -99,13 +100,34 @@ impl Body {
                 (c, radiator.push(self.desc.water_density))
             }
             _ if self.radiates => (Coefficients::default(), Vec3::ZERO),
-            _ => (own, Vec3::ZERO),
+            _ => self.memory.as_ref().map_or((own, Vec3::ZERO), |memory| {
+                let (mut c, [heave, roll, pitch]) = (own, memory.recall(dt));
+                let mut push = Vec3::ZERO;
+                if let Some(heave) = heave {
+                    (c.added_mass.y, c.damping.y, push.x) = (heave.left, heave.damping, heave.force);
+                }
+                if let Some(roll) = roll {
+                    (c.added_inertia.x, c.angular_damping.x, push.y) = (roll.left, roll.damping, roll.force);
+                }
+                if let Some(pitch) = pitch {
+                    (c.added_inertia.z, c.angular_damping.z, push.z) = (pitch.left, pitch.damping, pitch.force);
+                }
+                (c, push * afloat)
+            }),
+        }
+    }
+
+    /// Takes down the motion through the water in a sub-step: up in m/s, about the hull's x and z in rad/s.
+    pub(super) fn remember(&mut self, motion: Vec3, dt: f32) {
+        let on_a_grid = self.radiates || self.radiator.as_ref().is_some_and(|r| r.on);
+        if let Some(memory) = &mut self.memory {
+            if on_a_grid { memory.forget() } else { memory.remember((motion * dt).to_array(), dt) }
         }
     }
 
     /// About the centre of mass, hull axes: heave pushes at the waterplane's centre.
     pub(super) fn texture_torque(&self, push: Vec3) -> Vec3 {
-        let arm = self.radiator.as_ref().map_or(Vec2::ZERO, |r| r.center);
+        let arm = self.waterline.center - Vec2::new(self.desc.center_of_mass.x, self.desc.center_of_mass.z);
         Vec3::new(push.y - arm.y * push.x, 0.0, push.z + arm.x * push.x)
     }
 

@@ -73,7 +73,7 @@ impl Body {
         // What is far below the surface makes no waves.
         let radiating = ((self.volume - wet.volume) * self.sheds).clamp(0.0, 1.0);
         let to_body = pose.rotation.transpose();
-        let (coefficients, push) = self.radiation();
+        let (coefficients, push) = self.radiation(dt, share.min(1.0) * radiating);
         let axes = resistance_axes(pose.rotation, wet.slope, desc.hull.is_blunt());
         let to_axes = axes.transpose();
         let water = to_axes * wet.velocity;
@@ -114,6 +114,8 @@ impl Body {
         let rates = desc.drag.angular_quadratic * spin.abs() * share;
         let moments = Vec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
         let driven = (implicit(spin, linear, rates, moments, dt) + wet.spin).clamp_length_max(LIMITS.1);
+        let through = driven - wet.spin;
+        self.remember(Vec3::new(slowed.y, through.x, through.z), dt);
         let driven = if self.solids.near { self.press(dt, &pose, &mobility, driven) } else { driven };
         let (turning, mean) = match self.desc.inertia {
             Inertia::Full => tumble(inertia, driven, dt),

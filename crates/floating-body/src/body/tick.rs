@@ -56,6 +56,7 @@ impl Body {
             self.solids.ask(water, &self.pose());
         }
         if self.restart {
+            self.memory.iter_mut().for_each(|memory| memory.forget());
             self.measure(0.0, true);
         }
         let start = self.state.position;

@@ -149,7 +149,7 @@ fn moments(a: &Afloat) -> ([f64; 2], usize) {
 
 /// Where a mode's texture acts (0 heave, 1 roll, 2 pitch), about the waterplane's centre: along a line for heave and
 /// pitch, on two for roll.
-fn line(a: &Afloat, mode: usize) -> Vec<Element> {
+pub(super) fn line(a: &Afloat, mode: usize) -> Vec<Element> {
     let ([along, across], count) = moments(a);
     let area = f64::from(a.waterline.area);
     let along = || places(DRAWN_IN * along, count);
