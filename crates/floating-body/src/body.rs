@@ -65,11 +65,11 @@ pub struct Body {
     /// Half the bounding box's diagonal, m.
     reach: f32,
     /// Radius of the disc with the waterplane's area, m; `reach` without one.
-    footprint: f32,
+    pub(crate) footprint: f32,
     /// Of all force points, m^3.
-    volume: f32,
+    pub(crate) volume: f32,
     /// By how much radiation fades per volume that goes under, 1/m^3: from half the reserve of buoyancy on.
-    sheds: f32,
+    pub(crate) sheds: f32,
     /// Bounds of the square of the frequencies in heave and in rotation when dry, rad^2/s^2.
     stiffness: Vec2,
     state: BodyState,

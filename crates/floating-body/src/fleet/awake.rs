@@ -59,7 +59,7 @@ fn read(tick: &Tick, packs: &mut [Pack], first: usize, count: usize) {
             n += 1;
         }
     }
-    tick.water.patches(&centers[..n], tick.template.reach, &mut patches[..n]);
+    tick.water.patches(&centers[..n], tick.template.footprint, &mut patches[..n]);
     let mut n = 0;
     for (i, pack) in packs.iter_mut().enumerate() {
         if !due(i, pack) {

@@ -32,7 +32,7 @@ pub(super) fn substep<S: Simd>(
     let splat = |v: f32| f32x8::splat(simd, v);
     let dt = pace.dt;
     let rotation = motion.turn.matrix();
-    let wet = immerse(simd, template, surface, motion.position, &rotation, motion.velocity);
+    let wet = immerse(simd, template, surface, motion.position, &rotation);
     let share = (wet.volume * (1.0 / template.volume)).min(splat(DEEPEST));
     // The water counts as far as its wave has not faded.
     let felt = wet.moved / wet.volume.max(splat(1.0e-30));
@@ -47,8 +47,11 @@ pub(super) fn substep<S: Simd>(
     let drive = axes.back(V3::new(wet.force.x, wet.force.y - weight, wet.force.z)) + added * heaved;
     let eased = V3::new(one, one, one).over(whole);
     let pushed = velocity + (drive * eased).scale(splat(dt / pace.held[0])) - water;
-    let rates = (drag_rates(simd, template, pushed) + V3::all(simd, coefficients.damping)).scale(share);
-    let slowed = implicit(simd, pushed, rates * eased, dt);
+    let radiating = share * ((splat(template.points) - wet.volume) * template.sheds).max(zero).min(one);
+    let linear =
+        V3::all(simd, template.drag.linear).scale(share) + V3::all(simd, coefficients.damping).scale(radiating);
+    let rates = drag_rates(simd, template, pushed) * V3::new(share, share.min(one), share);
+    let slowed = implicit(simd, pushed, linear * eased, rates * eased, dt);
     let sideways = whole.z * (slowed.z - pushed.z) * (1.0 / dt);
     motion.velocity = axes.times(slowed + water);
 
@@ -60,15 +63,13 @@ pub(super) fn substep<S: Simd>(
     let eased = V3::new(one, one, one).over(moments);
     let twist = if template.turning == Turning::Full { inertia.solve(simd, torque) } else { torque * eased };
     let turning = rotation.back(motion.spin) + twist.scale(splat(dt / pace.held[1]));
-    let spin = turning - wet.spin;
     let speed = slowed.dot(slowed).sqrt();
     let drag = &template.drag;
-    let spinning = V3::new(spin.x.abs(), spin.y.abs(), spin.z.abs());
-    let rates = V3::all(simd, drag.angular_linear + coefficients.angular_damping)
-        + V3::all(simd, drag.angular_quadratic) * spinning
-        + V3::all(simd, drag.angular_forward).scale(speed);
-    let rates = rates.scale(share);
-    let driven = (implicit(simd, spin, rates * eased, dt) + wet.spin).shortened(simd, LIMITS.1);
+    let spinning = V3::new(turning.x.abs(), turning.y.abs(), turning.z.abs());
+    let linear = (V3::all(simd, drag.angular_linear) + V3::all(simd, drag.angular_forward).scale(speed)).scale(share)
+        + V3::all(simd, coefficients.angular_damping).scale(radiating);
+    let rates = (V3::all(simd, drag.angular_quadratic) * spinning).scale(share);
+    let driven = implicit(simd, turning, linear * eased, rates * eased, dt).shortened(simd, LIMITS.1);
     let (turning, mean) = match template.turning {
         Turning::PreRigid => (driven, driven),
         Turning::Diagonal => tumble_diagonal(simd, moments, eased, driven, dt),
@@ -80,14 +81,16 @@ pub(super) fn substep<S: Simd>(
     wet.volume
 }
 
-/// One implicit step of decay at `rates` (1/s).
+/// See [`implicit`](crate::drag::implicit); `linear` and `rates` over the mass, 1/s.
 #[inline(always)]
-fn implicit<S: Simd>(simd: S, v: V3<S>, rates: V3<S>, dt: f32) -> V3<S> {
+fn implicit<S: Simd>(simd: S, v: V3<S>, linear: V3<S>, rates: V3<S>, dt: f32) -> V3<S> {
     let one = f32x8::splat(simd, 1.0);
-    v.over(rates.scale(f32x8::splat(simd, dt)) + V3::new(one, one, one))
+    let whole = linear.scale(f32x8::splat(simd, dt)) + V3::new(one, one, one);
+    let root = whole * whole + rates.scale(f32x8::splat(simd, 4.0 * dt));
+    (v + v).over(whole + V3::new(root.x.sqrt(), root.y.sqrt(), root.z.sqrt()))
 }
 
-/// See [`Drag::rates`](crate::Drag).
+/// See [`Drag::quadratic_rates`](crate::Drag).
 #[inline(always)]
 fn drag_rates<S: Simd>(simd: S, template: &Template, rel: V3<S>) -> V3<S> {
     let drag = &template.drag;
@@ -104,7 +107,7 @@ fn drag_rates<S: Simd>(simd: S, template: &Template, rel: V3<S>) -> V3<S> {
         let cross = drag.cross_flow;
         V3::new(speed(rel.x, cross.x), speed(rel.y, cross.y), speed(rel.z, cross.z))
     };
-    V3::all(simd, drag.linear) + V3::all(simd, drag.quadratic) * speeds
+    V3::all(simd, drag.quadratic) * speeds
 }
 
 /// See [`resistance_axes`](crate::forces::resistance_axes).

@@ -10,8 +10,6 @@ use crate::{Body, Coefficients, Drag, GRAVITY, PointShape};
 pub(super) struct Spot {
     pub(super) at: Vec3,
     pub(super) volume: f32,
-    /// `|at|^2 - at^2` for each axis, times the volume.
-    pub(super) arm: Vec3,
 }
 
 /// Force points of one size and shape.
@@ -51,6 +49,11 @@ pub(super) struct Template {
     pub(super) volume: f32,
     /// Volume of the hull, m^3.
     pub(super) whole: f32,
+    /// Of all points, m^3, and how fast radiation fades as they go under, 1/m^3.
+    pub(super) points: f32,
+    pub(super) sheds: f32,
+    /// Of the disc over which the water is averaged, m.
+    pub(super) footprint: f32,
     /// Of the disc over which its displacement is spread, m: that with the area of the waterline's rectangle.
     pub(super) radius: f32,
     /// Half the bounding box's diagonal, m.
@@ -77,8 +80,7 @@ impl Template {
         let mut groups: Vec<Group> = Vec::new();
         for point in body.force_points() {
             let (at, volume) = (point.position, point.volume);
-            let arm = (Vec3::splat(at.length_squared()) - at * at) * volume;
-            let spot = Spot { at, volume, arm };
+            let spot = Spot { at, volume };
             match groups.iter_mut().find(|g| g.half == point.half && g.shape == point.shape) {
                 Some(group) => group.spots.push(spot),
                 None => groups.push(Group { half: point.half, shape: point.shape, spots: vec![spot] }),
@@ -104,6 +106,9 @@ impl Template {
             weight: desc.water_density * GRAVITY,
             volume: body.waterline().volume,
             whole: desc.hull.volume(),
+            points: body.volume,
+            sheds: body.sheds,
+            footprint: body.footprint,
             radius: (body.waterline().extent.element_product().max(1.0e-6) * std::f32::consts::FRAC_1_PI).sqrt(),
             reach: body.bounding_radius(),
             stiffness: body.stiffness().to_array(),

@@ -41,8 +41,6 @@ pub(super) struct Wet<S: Simd> {
     pub(super) volume: Num<S>,
     /// Volume over which the water's motion counts: less where the wave has faded.
     pub(super) moved: Num<S>,
-    /// Hull axes.
-    pub(super) spin: V3<S>,
 }
 
 /// Sums over points, hull axes; volumes that push up and volumes that push along.
@@ -55,7 +53,6 @@ struct Sums<S: Simd> {
     up_at: V3<S>,
     along_at: V3<S>,
     at: V3<S>,
-    arm: V3<S>,
 }
 
 /// A number that is linear in the place on the hull.
@@ -114,8 +111,8 @@ impl<S: Simd> Sums<S> {
     fn new(simd: S) -> Self {
         let zero = f32x8::splat(simd, 0.0);
         let none = V3::new(zero, zero, zero);
-        let (up_at, along_at, at, arm) = (none, none, none, none);
-        Self { volume: zero, moved: zero, up: zero, along: zero, up_at, along_at, at, arm }
+        let (up_at, along_at, at) = (none, none, none);
+        Self { volume: zero, moved: zero, up: zero, along: zero, up_at, along_at, at }
     }
 
     /// Adds the points of a group. Without `FADES` what pushes up, what pushes along and what is wet are the same.
@@ -129,10 +126,8 @@ impl<S: Simd> Sums<S> {
             let u = (depth * facing.inverse_extent).max(-one).min(one);
             let (share, shift, twisted) = part(simd, group.shape, facing.standing, u);
             let volume = share * spot.volume;
-            let arm = V3::all(simd, spot.arm);
             let at = V3::all(simd, spot.at);
             self.volume += volume;
-            self.arm = self.arm + arm.scale(share);
             if FADES {
                 let (pull, fade) = faded(simd, share, facing.extent, depth, tilt.wave.at(spot.at), decay);
                 let up = pull * spot.volume;
@@ -143,7 +138,6 @@ impl<S: Simd> Sums<S> {
                 self.moved += volume * fade;
                 self.up_at = self.up_at + at.scale(up);
                 self.along_at = self.along_at + at.scale(along);
-                self.at = self.at + at.scale(volume);
                 moment[0] += shift * counts;
                 moment[1] += shift * counts * fade;
                 twist[0] += twisted * counts;
@@ -223,7 +217,6 @@ pub(super) fn immerse<S: Simd>(
     surface: &Surface<S>,
     position: V3<S>,
     rotation: &M3<S>,
-    velocity: V3<S>,
 ) -> Wet<S> {
     let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
     let [gx, gz] = surface.gradient;
@@ -263,16 +256,8 @@ pub(super) fn immerse<S: Simd>(
     let level = V3::new(-sx, zero, -sz);
     let torque = sums.up_at.cross(rotation.back(upright)) + sums.along_at.cross(rotation.back(level));
     let torque = torque.scale(f32x8::splat(simd, template.weight));
-    // The flow past the hull is the same everywhere on a plane.
-    let through = V3::new(velocity.x - surface.flow.x, zero, velocity.z - surface.flow.z);
-    let rise = through.x * sx + through.z * sz;
-    let flow = rotation.back(V3::new(surface.flow.x, surface.flow.y + rise, surface.flow.z));
-    let least = sums.volume * 1.0e-6;
-    let tiny = f32x8::splat(simd, 1.0e-30);
-    let arm =
-        V3::new(sums.arm.x.max(least).max(tiny), sums.arm.y.max(least).max(tiny), sums.arm.z.max(least).max(tiny));
-    let spin = sums.at.cross(flow).over(arm).shortened(simd, 20.0);
-    Wet { force, torque, volume: sums.volume, moved: sums.moved, spin }
+    // The flow past the hull is the same everywhere on a plane: it does not turn.
+    Wet { force, torque, volume: sums.volume, moved: sums.moved }
 }
 
 /// Volumes under the surface without the home grid, carried on by `time` s, at a pose.
