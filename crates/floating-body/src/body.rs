@@ -1,5 +1,6 @@
 //! A floating body: its state, and one tick of its motion.
 
+mod clipped;
 mod moorings;
 mod query;
 mod radiate;
@@ -11,6 +12,7 @@ mod touch;
 
 use glam::{Mat3, Vec2, Vec3};
 
+use self::clipped::Clipping;
 pub use self::state::{BodyState, Wrench};
 use self::stiffness::stiffness;
 use self::touch::Solids;
@@ -91,6 +93,8 @@ pub struct Body {
     immersed: f32,
     /// Of the waves it made, where no grid carries them.
     memory: Option<Box<Memory>>,
+    /// None for a body of force points.
+    clipping: Option<Box<Clipping>>,
     /// What it exchanges with a grid that carries textures.
     radiator: Option<Box<Radiator>>,
     /// Cells for which that was asked last, m; 0 before.
@@ -155,6 +159,7 @@ impl Body {
             solids: Solids::new(&desc),
             immersed: 0.0,
             memory: None,
+            clipping: Clipping::new(&desc, &points),
             radiator: None,
             fitted_for: 0.0,
             feels_own: false,

@@ -58,6 +58,21 @@ pub enum ForcePoints {
     Given(Vec<ForcePoint>),
 }
 
+/// How exactly buoyancy follows the hull's shape.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub enum Quality {
+    /// Summed over [`BodyDesc::points`].
+    #[default]
+    Points,
+    /// The hull is clipped at the water surface, triangle by triangle (a ball or cylinder that reads one patch: in closed
+    /// form), some nanoseconds a triangle and sub-step. The points still say where the water is read and what is
+    /// displaced.
+    Clipped,
+    /// Clipped within so many m from the eye ([`Body::set_distance`](crate::Body::set_distance)), points farther away; a
+    /// change takes half a second.
+    Near(f32),
+}
+
 /// A body to be made. [`BodyDesc::from_hull`] fills everything in; change what you know better.
 #[derive(Clone, Debug)]
 pub struct BodyDesc {
@@ -78,6 +93,8 @@ pub struct BodyDesc {
     pub sampling: Sampling,
     /// Where buoyancy acts.
     pub points: ForcePoints,
+    /// How exactly buoyancy follows the hull.
+    pub quality: Quality,
     /// Added mass and radiation damping; used with [`Radiation::Coefficients`].
     pub coefficients: Coefficients,
     /// Remember the waves made in heave, roll and pitch (Cummins 1962) where `coefficients` would act: they then follow
@@ -110,6 +127,7 @@ impl BodyDesc {
             radiation: Radiation::default(),
             sampling: if small { Sampling::Patch } else { Sampling::Points },
             points: ForcePoints::default(),
+            quality: Quality::default(),
             coefficients: Coefficients::default(),
             memory: false,
             tables: RadiationTables::default(),
@@ -204,6 +222,9 @@ impl BodyDesc {
         check_range("mass", self.mass, 1.0e-6, 1.0e9, "in [1e-6, 1e9] kg")?;
         check_range("water_density", self.water_density, 1.0, 2.0e4, "in [1, 20000] kg/m^3")?;
         check_all("center_of_mass", self.center_of_mass, -1.0e4, 1.0e4, "within +-10000 m")?;
+        if let Quality::Near(near) = self.quality {
+            check_range("quality", near, 0.01, 1.0e6, "Near of [0.01, 1e6] m")?;
+        }
         let c = &self.coefficients;
         let at_least_zero = "finite and >= 0";
         for (field, v) in [

@@ -183,7 +183,7 @@ pub(crate) fn immerse(points: &[ForcePoint], waters: &[LocalWater], pose: &Pose,
 /// at the surface only:
 /// the difference between bottom and top is `rho g h (exp(-k d_top) - exp(-k d_bottom))` less than hydrostatic (linear
 /// wave theory).
-fn buoyancy(share: f32, extent: f32, depth: f32, water: &LocalWater) -> (f32, f32) {
+pub(crate) fn buoyancy(share: f32, extent: f32, depth: f32, water: &LocalWater) -> (f32, f32) {
     let (top, bottom) = ((depth - extent).max(0.0), (depth + extent).max(0.0));
     if water.decay * bottom < 1.0e-3 {
         return (share, 1.0);

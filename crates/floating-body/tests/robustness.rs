@@ -1,8 +1,8 @@
 //! Nothing that a game passes at run time breaks a body, and what a description may not hold is refused.
 
 use floating_body::{
-    Body, BodyDesc, BodyError, BodyState, Controls, FlatWater, ForcePoints, Hull, Inertia, Radiation, Sampling,
-    SurfacePatch, SurfaceSample, WaterSurface,
+    Body, BodyDesc, BodyError, BodyState, Controls, FlatWater, ForcePoints, Hull, Inertia, Quality, Radiation,
+    Sampling, SurfacePatch, SurfaceSample, WaterSurface,
 };
 use glam::{Quat, Vec2, Vec3};
 use proptest::prelude::*;
@@ -98,7 +98,7 @@ proptest! {
         size in prop::sample::select(vec![0.05_f32, 0.3, 1.0, 5.0, 30.0]),
         density in prop::sample::select(vec![0.01_f32, 0.1, 0.5, 0.95, 1.5, 3.0]),
         dt in prop::sample::select(vec![0.001_f32, 1.0 / 120.0, 1.0 / 60.0, 0.1, 1.0]),
-        (full, grid, patch) in (any::<bool>(), any::<bool>(), any::<bool>()),
+        (full, grid, patch, clipped) in (any::<bool>(), any::<bool>(), any::<bool>(), any::<bool>()),
         (velocity, spin) in ((-30.0..30.0_f32, -50.0..10.0_f32, -30.0..30.0_f32), (-5.0..5.0_f32, -5.0..5.0_f32, -5.0..5.0_f32)),
     ) {
         let hull = hull(kind, size);
@@ -106,6 +106,7 @@ proptest! {
         desc.inertia = if full { Inertia::Full } else { Inertia::PreRigid };
         desc.radiation = if grid { Radiation::Grid } else { Radiation::Coefficients };
         desc.sampling = if patch { Sampling::Patch } else { Sampling::Points };
+        desc.quality = if clipped { Quality::Clipped } else { Quality::Points };
         let mut body = Body::new(desc).unwrap();
         let mut state = BodyState::at_rest(Vec3::new(0.0, size, 0.0));
         state.velocity = Vec3::new(velocity.0, velocity.1, velocity.2);

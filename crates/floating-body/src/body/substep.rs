@@ -48,8 +48,10 @@ impl Body {
     }
 
     /// What the water at rest around the hull does to it at a pose.
-    fn wetness(&self, pose: &Pose) -> Wetness {
-        immerse(&self.points, &self.waters, pose, self.feels_own, self.desc.water_density)
+    fn wetness(&mut self, pose: &Pose) -> Wetness {
+        let mut wet = immerse(&self.points, &self.waters, pose, self.feels_own, self.desc.water_density);
+        self.clip(&mut wet, pose);
+        wet
     }
 
     /// Carries the surface on by `time` s, its velocity by `whole` s: drag is implicit and meets the sub-step's end.
@@ -67,8 +69,8 @@ impl Body {
         let pose = if scheme.ahead > 0.0 { self.pose_after(scheme.ahead * dt) } else { self.pose() };
         let before = self.state.velocity;
         let spun = start * self.state.angular_velocity;
-        let desc = &self.desc;
         let wet = self.wetness(&pose);
+        let desc = &self.desc;
         let share = (wet.volume / self.waterline.volume).min(DEEPEST);
         // What is far below the surface makes no waves.
         let radiating = ((self.volume - wet.volume) * self.sheds).clamp(0.0, 1.0);

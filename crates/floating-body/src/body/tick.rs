@@ -59,6 +59,7 @@ impl Body {
             self.memory.iter_mut().for_each(|memory| memory.forget());
             self.measure(0.0, true);
         }
+        self.attend(dt);
         let start = self.state.position;
         let h = dt / count;
         let carried = scheme.ahead * h;

@@ -3,9 +3,10 @@
 //! The hull's frame has x forward, y up and z to starboard, in metres. A hull knows geometry only; mass and where it
 //! sits come with a [`BodyDesc`](crate::BodyDesc). Hulls are shared: a clone is a pointer.
 
+pub(crate) mod clip;
 mod columns;
 mod convex;
-mod shapes;
+pub(crate) mod shapes;
 mod solid;
 mod spans;
 mod topology;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Mat3, Vec3};
 
+pub use self::clip::Clip;
 use self::shapes::Shape;
 use self::solid::Solid;
 use self::spans::Span;
@@ -239,6 +241,14 @@ impl Hull {
     /// Whether the hull is blunt at its ends (closed shapes) rather than drawn to a bow (meshes).
     pub(crate) fn is_blunt(&self) -> bool {
         matches!(self.0.made, Made::Shape(_))
+    }
+
+    /// A ball or a cylinder.
+    pub(crate) fn round(&self) -> Option<Shape> {
+        match self.0.made {
+            Made::Shape(Shape::Cuboid { .. }) | Made::Mesh(_) => None,
+            Made::Shape(shape) => Some(shape),
+        }
     }
 
     /// Whether the hull is a ball.
