@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Mat3, Vec3};
 
-pub use self::clip::Clip;
+pub use self::clip::{Clip, Clipper, Push};
 use self::shapes::Shape;
 use self::solid::Solid;
 use self::spans::Span;

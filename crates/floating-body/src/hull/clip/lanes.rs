@@ -26,7 +26,7 @@ pub(crate) struct Fade {
 
 /// Over the specific weight, about the panels' centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Push {
+pub(crate) struct Sum {
     /// m^3.
     pub(crate) force: Vec3,
     /// m^4.
@@ -36,7 +36,7 @@ pub(crate) struct Push {
 }
 
 /// The push on `panels` under `planes` (one, or one for each sample they were made for). `depths` is scratch.
-pub(crate) fn push(level: Level, panels: &Panels, planes: &[Plane], fade: Option<Fade>, depths: &mut Vec<f32>) -> Push {
+pub(crate) fn push(level: Level, panels: &Panels, planes: &[Plane], fade: Option<Fade>, depths: &mut Vec<f32>) -> Sum {
     if panels.spots.is_empty() {
         let plane = planes.first().copied().unwrap_or_default();
         return dispatch!(level, simd => sweep(simd, &panels.blocks, &plane, fade));
@@ -56,7 +56,7 @@ fn sink<S: Simd>(simd: S, spots: &[Spots], planes: &[Plane], depths: &mut [f32])
         let mut depth = f32x8::splat(simd, 0.0);
         for (plane, weight) in &spots.planes {
             let plane = planes.get(*plane as usize).copied().unwrap_or_default();
-            depth = depth + under(simd, &plane, at) * f32x8::load_array(simd, *weight);
+            depth += under(simd, &plane, at) * f32x8::load_array(simd, *weight);
         }
         depth.store_slice(out);
     }
@@ -112,15 +112,15 @@ impl<S: Simd> Sums<S> {
     fn add(&mut self, area: Three<S>, head: f32x8<S>, arm: Three<S>, depth: f32x8<S>) {
         for axis in 0..3 {
             let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-            self.force[axis] = self.force[axis] - area[axis] * head;
-            self.torque[axis] = self.torque[axis] - (arm[next] * area[last] - arm[last] * area[next]);
-            self.lift[axis] = self.lift[axis] - area[axis] * depth;
+            self.force[axis] -= area[axis] * head;
+            self.torque[axis] -= arm[next] * area[last] - arm[last] * area[next];
+            self.lift[axis] -= area[axis] * depth;
         }
     }
 }
 
 #[inline(always)]
-fn sweep<S: Simd, D: Depths>(simd: S, blocks: &[Block], depths: &D, fade: Option<Fade>) -> Push {
+fn sweep<S: Simd, D: Depths>(simd: S, blocks: &[Block], depths: &D, fade: Option<Fade>) -> Sum {
     let zero = f32x8::splat(simd, 0.0);
     let mut sums = Sums { force: [zero; 3], torque: [zero; 3], lift: [zero; 3] };
     for block in blocks {
@@ -149,7 +149,7 @@ fn sweep<S: Simd, D: Depths>(simd: S, blocks: &[Block], depths: &D, fade: Option
         let [head, x, y, z, depth] = piece;
         sums.add(area, head, [x, y, z], depth);
     }
-    Push { force: sum(sums.force), torque: sum(sums.torque), lift: sum(sums.lift) }
+    Sum { force: sum(sums.force), torque: sum(sums.torque), lift: sum(sums.lift) }
 }
 
 #[inline(always)]

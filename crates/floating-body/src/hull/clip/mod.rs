@@ -4,6 +4,7 @@
 //! summed by `panels` (f32, eight triangles side by side), for balls and cylinders on a plane by `closed`.
 //! Pressure is hydrostatic below the surface; how it fades under a wave is the caller's.
 
+mod clipper;
 pub(crate) mod closed;
 mod exact;
 pub(crate) mod lanes;
@@ -14,6 +15,7 @@ mod tests;
 
 use glam::{DMat3, DVec3, Quat, Vec2, Vec3};
 
+pub use self::clipper::{Clipper, Push};
 use super::{Hull, Made};
 use crate::TriMesh;
 use crate::rotation::matrix;

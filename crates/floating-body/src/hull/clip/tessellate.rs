@@ -87,7 +87,7 @@ pub(crate) fn split(mut mesh: TriMesh, longest: f32) -> TriMesh {
         for t in mesh.indices.chunks_exact(3) {
             let mut middle = |a: u32, b: u32| {
                 let (p, q) = (vertices[a as usize], vertices[b as usize]);
-                if !(p.distance(q) > longest) {
+                if p.distance(q) <= longest {
                     return None;
                 }
                 Some(*middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
