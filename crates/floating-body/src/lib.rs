@@ -50,7 +50,7 @@ pub use drag::Drag;
 pub use engine::{Controls, Engine};
 pub use error::BodyError;
 pub use fleet::{Activity, Fleet, FleetDesc, PieceId};
-pub use hull::{Clip, Closure, Hull, HullKind, TriMesh, Waterline};
+pub use hull::{Clip, Clipper, Closure, Hull, HullKind, Push, TriMesh, Waterline};
 pub use mooring::MooringLine;
 pub use point::{ForcePoint, PointShape};
 pub use radiation::{Imprint, RadiationTable, RadiationTables, TextureKernel, Textures};
