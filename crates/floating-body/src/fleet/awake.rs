@@ -5,7 +5,7 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::kernel::{Motion, substep};
-use super::lanes::{LANES, Turn, V3, load};
+use super::lanes::{LANES, Turn, V3, load, pair};
 use super::pack::{Pack, Plane};
 use super::tell::measure;
 use super::template::{Pace, Template};
@@ -76,21 +76,26 @@ fn read(tick: &Tick, packs: &mut [Pack], first: usize, count: usize) {
 
 #[inline(always)]
 fn advance<S: Simd>(simd: S, tick: &Tick, packs: &mut [Pack]) -> u32 {
-    packs.iter_mut().map(|pack| step(simd, tick, pack)).sum()
+    // No closures from here on: they would not be inlined for certain, and without the machine's vectors.
+    let mut reset = 0;
+    for pack in packs {
+        reset += step(simd, tick, pack);
+    }
+    reset
 }
 
 /// The plane as it has moved on since it was read.
 #[inline(always)]
 fn surface<S: Simd>(simd: S, pack: &Pack, felt: bool) -> Surface<S> {
-    let pair = |rows: &[[f32; LANES]; 2]| [load(simd, &rows[0]), load(simd, &rows[1])];
-    let (slope, ambient, flow) = (pair(&pack.slope), pair(&pack.ambient), V3::load(simd, &pack.flow));
+    let (slope, ambient) = (pair(simd, &pack.slope), pair(simd, &pack.ambient));
+    let flow = V3::load(simd, &pack.flow);
     let (age, acceleration) = (load(simd, &pack.age), load(simd, &pack.acceleration));
     let rise = flow.y - (slope[0] * flow.x + slope[1] * flow.z);
     let carried = (rise + acceleration * age * 0.5) * age;
     let height = load(simd, &pack.height) + carried;
     let decay = load(simd, &pack.decay);
     Surface {
-        center: pair(&pack.center),
+        center: pair(simd, &pack.center),
         height: if felt { height + load(simd, &pack.own) } else { height },
         gradient: if felt { slope } else { ambient },
         slope,

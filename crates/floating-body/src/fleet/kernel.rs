@@ -29,25 +29,24 @@ pub(super) fn substep<S: Simd>(
     motion: &mut Motion<S>,
 ) -> Num<S> {
     let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
-    let splat = |v: f32| f32x8::splat(simd, v);
     let dt = pace.dt;
     let rotation = motion.turn.matrix();
     let wet = immerse(simd, template, surface, motion.position, &rotation);
-    let share = (wet.volume * (1.0 / template.volume)).min(splat(DEEPEST));
+    let share = (wet.volume * (1.0 / template.volume)).min(f32x8::splat(simd, DEEPEST));
     // The water counts as far as its wave has not faded.
-    let felt = wet.moved / wet.volume.max(splat(1.0e-30));
+    let felt = wet.moved / wet.volume.max(f32x8::splat(simd, 1.0e-30));
     let axes = if template.blunt { rotation } else { resistance_axes(simd, &rotation, surface, wet.volume) };
     let water = axes.back(surface.flow.scale(felt));
     let added = V3::all(simd, coefficients.added_mass).scale(share);
     let whole = added + V3::all(simd, glam::Vec3::splat(template.mass));
     let velocity = axes.back(motion.velocity);
 
-    let weight = splat(template.mass * GRAVITY);
+    let weight = f32x8::splat(simd, template.mass * GRAVITY);
     let heaved = axes.back(V3::new(zero, surface.acceleration * felt, zero));
     let drive = axes.back(V3::new(wet.force.x, wet.force.y - weight, wet.force.z)) + added * heaved;
     let eased = V3::new(one, one, one).over(whole);
-    let pushed = velocity + (drive * eased).scale(splat(dt / pace.held[0])) - water;
-    let radiating = share * ((splat(template.points) - wet.volume) * template.sheds).max(zero).min(one);
+    let pushed = velocity + (drive * eased).scale(f32x8::splat(simd, dt / pace.held[0])) - water;
+    let radiating = share * ((f32x8::splat(simd, template.points) - wet.volume) * template.sheds).max(zero).min(one);
     let linear =
         V3::all(simd, template.drag.linear).scale(share) + V3::all(simd, coefficients.damping).scale(radiating);
     let rates = drag_rates(simd, template, pushed) * V3::new(share, share.min(one), share);
@@ -62,7 +61,7 @@ pub(super) fn substep<S: Simd>(
     let moments = V3::new(inertia.x.x, inertia.y.y, inertia.z.z);
     let eased = V3::new(one, one, one).over(moments);
     let twist = if template.turning == Turning::Full { inertia.solve(simd, torque) } else { torque * eased };
-    let turning = rotation.back(motion.spin) + twist.scale(splat(dt / pace.held[1]));
+    let turning = rotation.back(motion.spin) + twist.scale(f32x8::splat(simd, dt / pace.held[1]));
     let speed = slowed.dot(slowed).sqrt();
     let drag = &template.drag;
     let spinning = V3::new(turning.x.abs(), turning.y.abs(), turning.z.abs());
@@ -75,9 +74,9 @@ pub(super) fn substep<S: Simd>(
         Turning::Diagonal => tumble_diagonal(simd, moments, eased, driven, dt),
         Turning::Full => tumble(simd, &inertia, driven, dt),
     };
-    motion.turn = motion.turn.turned(simd, mean.scale(splat(dt)));
+    motion.turn = motion.turn.turned(simd, mean.scale(f32x8::splat(simd, dt)));
     motion.spin = motion.turn.matrix().times(turning);
-    motion.position = motion.position + motion.velocity.scale(splat(dt));
+    motion.position = motion.position + motion.velocity.scale(f32x8::splat(simd, dt));
     wet.volume
 }
 
@@ -90,22 +89,24 @@ fn implicit<S: Simd>(simd: S, v: V3<S>, linear: V3<S>, rates: V3<S>, dt: f32) ->
     (v + v).over(whole + V3::new(root.x.sqrt(), root.y.sqrt(), root.z.sqrt()))
 }
 
+/// Speed that feeds an axis' quadratic resistance.
+#[inline(always)]
+fn speed<S: Simd>(simd: S, all: Num<S>, own: Num<S>, cross: f32) -> Num<S> {
+    let own = own * own;
+    (own + (all - own).max(f32x8::splat(simd, 0.0)) * (cross * cross)).sqrt()
+}
+
 /// See [`Drag::quadratic_rates`](crate::Drag).
 #[inline(always)]
 fn drag_rates<S: Simd>(simd: S, template: &Template, rel: V3<S>) -> V3<S> {
     let drag = &template.drag;
-    let zero = f32x8::splat(simd, 0.0);
     let all = rel.dot(rel);
-    let speed = |own: Num<S>, cross: f32| {
-        let own = own * own;
-        (own + (all - own).max(zero) * (cross * cross)).sqrt()
-    };
     let speeds = if drag.cross_flow == glam::Vec3::ONE {
         let speed = all.sqrt();
         V3::new(speed, speed, speed)
     } else {
         let cross = drag.cross_flow;
-        V3::new(speed(rel.x, cross.x), speed(rel.y, cross.y), speed(rel.z, cross.z))
+        V3::new(speed(simd, all, rel.x, cross.x), speed(simd, all, rel.y, cross.y), speed(simd, all, rel.z, cross.z))
     };
     V3::all(simd, drag.quadratic) * speeds
 }
@@ -115,7 +116,7 @@ fn drag_rates<S: Simd>(simd: S, template: &Template, rel: V3<S>) -> V3<S> {
 fn resistance_axes<S: Simd>(simd: S, rotation: &M3<S>, surface: &Surface<S>, volume: Num<S>) -> M3<S> {
     let zero = f32x8::splat(simd, 0.0);
     let wet = volume.simd_gt(zero);
-    let [sx, sz] = surface.slope.map(|s| wet.select(s, zero));
+    let (sx, sz) = (wet.select(surface.slope[0], zero), wet.select(surface.slope[1], zero));
     let steep = f32x8::splat(simd, 1.0) / (sx * sx + sz * sz + 1.0).sqrt();
     let normal = V3::new(-(sx * steep), steep, -(sz * steep));
     let side = rotation.x.cross(normal);
@@ -134,7 +135,8 @@ fn resistance_axes<S: Simd>(simd: S, rotation: &M3<S>, surface: &Surface<S>, vol
 /// The tensor with what the water adds.
 #[inline(always)]
 fn columns<S: Simd>(simd: S, inertia: Mat3, added: V3<S>) -> M3<S> {
-    let [mut x, mut y, mut z] = [inertia.x_axis, inertia.y_axis, inertia.z_axis].map(|c| V3::all(simd, c));
+    let (mut x, mut y) = (V3::all(simd, inertia.x_axis), V3::all(simd, inertia.y_axis));
+    let mut z = V3::all(simd, inertia.z_axis);
     x.x += added.x;
     y.y += added.y;
     z.z += added.z;
@@ -152,7 +154,6 @@ fn tumble_diagonal<S: Simd>(simd: S, moments: V3<S>, eased: V3<S>, w0: V3<S>, dt
     // m - w0 = b m m' with the two others' product.
     let half = f32x8::splat(simd, 0.5 * dt);
     let b = V3::new(moments.y - moments.z, moments.z - moments.x, moments.x - moments.y) * eased.scale(half);
-    let others = |m: V3<S>| V3::new(m.y * m.z, m.z * m.x, m.x * m.y);
     let mut m = w0 + b * others(w0);
     for _ in 0..ROUNDS {
         let residual = m - w0 - b * others(m);
@@ -164,8 +165,14 @@ fn tumble_diagonal<S: Simd>(simd: S, moments: V3<S>, eased: V3<S>, w0: V3<S>, dt
         };
         m = m - jacobian.solve(simd, residual);
     }
-    let energy = |w: V3<S>| w.dot(moments * w);
-    believed(simd, w0, m, energy(w0), energy(m + m - w0))
+    let w1 = m + m - w0;
+    believed(simd, w0, m, w0.dot(moments * w0), w1.dot(moments * w1))
+}
+
+/// For each component the product of the other two.
+#[inline(always)]
+fn others<S: Simd>(m: V3<S>) -> V3<S> {
+    V3::new(m.y * m.z, m.z * m.x, m.x * m.y)
 }
 
 /// The same with products of inertia.
@@ -184,13 +191,15 @@ fn tumble<S: Simd>(simd: S, inertia: &M3<S>, w0: V3<S>, dt: f32) -> (V3<S>, V3<S
             V3::new(momentum.z, zero, -momentum.x),
             V3::new(-momentum.y, momentum.x, zero),
         ];
-        let column = |c: V3<S>, across: V3<S>| c + c + (across + m.cross(c)).scale(step);
-        let jacobian =
-            M3 { x: column(inertia.x, across[0]), y: column(inertia.y, across[1]), z: column(inertia.z, across[2]) };
+        let jacobian = M3 {
+            x: inertia.x + inertia.x + (across[0] + m.cross(inertia.x)).scale(step),
+            y: inertia.y + inertia.y + (across[1] + m.cross(inertia.y)).scale(step),
+            z: inertia.z + inertia.z + (across[2] + m.cross(inertia.z)).scale(step),
+        };
         m = m - jacobian.solve(simd, residual);
     }
-    let energy = |w: V3<S>| w.dot(inertia.times(w));
-    believed(simd, w0, m, energy(w0), energy(m + m - w0))
+    let w1 = m + m - w0;
+    believed(simd, w0, m, w0.dot(inertia.times(w0)), w1.dot(inertia.times(w1)))
 }
 
 /// The end and the middle of a step; where Newton's method found no rule that keeps the energy, the start.

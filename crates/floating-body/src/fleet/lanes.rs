@@ -22,6 +22,11 @@ pub(super) fn load<S: Simd>(simd: S, row: &Row) -> Num<S> {
     f32x8::from_slice(simd, row)
 }
 
+#[inline(always)]
+pub(super) fn pair<S: Simd>(simd: S, rows: &[Row; 2]) -> [Num<S>; 2] {
+    [load(simd, &rows[0]), load(simd, &rows[1])]
+}
+
 /// A vector of each.
 #[derive(Clone, Copy)]
 pub(super) struct V3<S: Simd> {
@@ -195,13 +200,13 @@ impl<S: Simd> Turn<S> {
 #[inline(always)]
 pub(super) fn exp<S: Simd>(simd: S, x: Num<S>) -> Num<S> {
     let x = x.max(f32x8::splat(simd, -87.0));
-    // Halves and doublings apart: x = n ln 2 - r with 0 <= r, truncation being towards zero.
-    let n: i32x8<S> = (x * std::f32::consts::LOG2_E).to_int();
+    // Doublings apart: x = n ln 2 + r with |r| <= ln 2 / 2, truncation being towards zero.
+    let n: i32x8<S> = (x * std::f32::consts::LOG2_E - 0.5).to_int();
     let whole: f32x8<S> = n.to_float();
     let r = (x - whole * 0.693_359_4) + whole * 2.121_944_4e-4;
-    // Taylor's series on [-ln 2, 0].
-    let mut sum = r * (1.0 / 40_320.0) + 1.0 / 5_040.0;
-    for c in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+    // Taylor's series.
+    let mut sum = r * (1.0 / 720.0) + 1.0 / 120.0;
+    for c in [1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
         sum = sum * r + c;
     }
     let power: f32x8<S> = ((n + 127) << 23).bitcast();

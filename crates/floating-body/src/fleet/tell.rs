@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::kernel::Motion;
-use super::lanes::{LANES, load};
+use super::lanes::{LANES, V3};
 use super::pack::{Pack, Told};
 use super::template::Template;
 use super::wet::{Surface, displaced};
@@ -20,15 +20,14 @@ pub(super) fn measure<S: Simd>(
     motion: &Motion<S>,
     pack: &mut Pack,
 ) {
-    let splat = |v: f32| f32x8::splat(simd, v);
     let (x, z) = (motion.position.x, motion.position.z);
     let now = displaced(simd, template, surface, dt, motion.position, &motion.turn.matrix());
-    let [old_x, old_z, old] = [0, 1, 2].map(|i| load(simd, &pack.told[0][i]));
-    let starts = old.simd_lt(splat(0.0));
+    let V3 { x: old_x, y: old_z, z: old } = V3::load(simd, &pack.told[0]);
+    let starts = old.simd_lt(f32x8::splat(simd, 0.0));
     let (dx, dz) = (x - old_x, z - old_z);
     let near = NEAR * template.radius;
-    let moved = starts | (dx * dx + dz * dz).simd_ge(splat(near * near));
-    let changed = moved | (now - old).abs().simd_ge(splat(QUIET * template.whole));
+    let moved = starts | (dx * dx + dz * dz).simd_ge(f32x8::splat(simd, near * near));
+    let changed = moved | (now - old).abs().simd_ge(f32x8::splat(simd, QUIET * template.whole));
     for (i, (new, old)) in [(x, old_x), (z, old_z)].into_iter().enumerate() {
         moved.select(new, old).store_slice(&mut pack.told[0][i]);
         starts.select(new, old).store_slice(&mut pack.told[1][i]);

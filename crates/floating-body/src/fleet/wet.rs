@@ -84,11 +84,13 @@ struct Facing<S: Simd> {
     gradient: V3<S>,
     twist: V3<S>,
     standing: Num<S>,
+    /// Of a wave from a wet point's bottom to its top.
+    growth: Num<S>,
 }
 
 impl<S: Simd> Facing<S> {
     #[inline(always)]
-    fn new(simd: S, group: &Group, normal: V3<S>) -> Self {
+    fn new(simd: S, group: &Group, normal: V3<S>, decay: Option<Num<S>>) -> Self {
         let half = V3::all(simd, group.half);
         let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
         let scaled = half * normal;
@@ -102,7 +104,12 @@ impl<S: Simd> Facing<S> {
             let along = V3::new(half.x * lean * 2.0, zero, zero);
             twist = along - gradient.scale(standing * 2.0);
         }
-        Self { inverse_extent, extent, gradient, twist, standing }
+        let growth = match decay {
+            // Farther a wave does not reach.
+            Some(decay) => one / exp(simd, -(decay * extent * 2.0).min(f32x8::splat(simd, 40.0))),
+            None => one,
+        };
+        Self { inverse_extent, extent, gradient, twist, standing, growth }
     }
 }
 
@@ -129,23 +136,22 @@ impl<S: Simd> Sums<S> {
             let at = V3::all(simd, spot.at);
             self.volume += volume;
             if FADES {
-                let (pull, fade) = faded(simd, share, facing.extent, depth, tilt.wave.at(spot.at), decay);
+                let (pull, fade) = faded(simd, share, facing, depth, tilt.wave.at(spot.at), decay);
                 let up = pull * spot.volume;
                 let along = up * fade;
-                let counts = pull / share.max(f32x8::splat(simd, 1.0e-12)) * spot.volume;
                 self.up += up;
                 self.along += along;
                 self.moved += volume * fade;
                 self.up_at = self.up_at + at.scale(up);
                 self.along_at = self.along_at + at.scale(along);
-                moment[0] += shift * counts;
-                moment[1] += shift * counts * fade;
-                twist[0] += twisted * counts;
-                twist[1] += twisted * counts * fade;
+                moment[0] += shift * up;
+                moment[1] += shift * along;
+                twist[0] += twisted * up;
+                twist[1] += twisted * along;
             } else {
                 self.at = self.at + at.scale(volume);
-                moment[0] += shift * spot.volume;
-                twist[0] += twisted * spot.volume;
+                moment[0] += shift * volume;
+                twist[0] += twisted * volume;
             }
         }
         if FADES {
@@ -157,21 +163,21 @@ impl<S: Simd> Sums<S> {
     }
 }
 
-/// Share under water of a piece whose centre is `u` half-extents deep, and how far its centre of volume has moved along the
-/// facing's gradient and twist: `G - u G'` and what the two sections of a cylinder differ by.
+/// Share under water of a piece whose centre is `u` half-extents deep, and how far the centre of what is wet has moved along
+/// the facing's gradient and twist: `G - u G'` and what the two sections of a cylinder differ by, over the share.
 #[inline(always)]
 fn part<S: Simd>(simd: S, shape: PointShape, standing: Num<S>, u: Num<S>) -> (Num<S>, Num<S>, Num<S>) {
-    let zero = f32x8::splat(simd, 0.0);
+    let (zero, tiny) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0e-12));
     match shape {
         PointShape::Box => {
             let share = u * 0.5 + 0.5;
-            (share, (-(u * u) + 1.0) * 0.25, zero)
+            (share, -share + 1.0, zero)
         }
         PointShape::Ball => {
             let u2 = u * u;
             let share = (u * 3.0 - u2 * u + 2.0) * 0.25;
             let whole = (u * 2.0 + u2 * 1.5 - u2 * u2 * 0.25) * 0.25 + 0.1875;
-            (share, whole - u * share, zero)
+            (share, (whole - u * share) / share.max(tiny), zero)
         }
         PointShape::DiscX => {
             let inv_pi = std::f32::consts::FRAC_1_PI;
@@ -183,7 +189,9 @@ fn part<S: Simd>(simd: S, shape: PointShape, standing: Num<S>, u: Num<S>) -> (Nu
             );
             let lying = -standing + 1.0;
             let share = standing * flat.0 + lying * round.0;
-            (share, standing * flat.1 + lying * round.1 - u * share, flat.1 - round.1)
+            let shift = standing * flat.1 + lying * round.1 - u * share;
+            let inverse = f32x8::splat(simd, 1.0) / share.max(tiny);
+            (share, shift * inverse, (flat.1 - round.1) * inverse)
         }
     }
 }
@@ -193,20 +201,20 @@ fn part<S: Simd>(simd: S, shape: PointShape, standing: Num<S>, u: Num<S>) -> (Nu
 fn faded<S: Simd>(
     simd: S,
     share: Num<S>,
-    extent: Num<S>,
+    facing: &Facing<S>,
     depth: Num<S>,
     wave: Num<S>,
     decay: Num<S>,
 ) -> (Num<S>, Num<S>) {
-    let zero = f32x8::splat(simd, 0.0);
-    let (top, bottom) = ((depth - extent).max(zero), (depth + extent).max(zero));
-    let (at_top, at_bottom) = (exp(simd, -(decay * top)), exp(simd, -(decay * bottom)));
-    let lost = wave * (at_top - at_bottom) / (extent * 2.0);
+    let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+    let deep = decay * (depth + facing.extent).max(zero);
+    let at_bottom = exp(simd, -deep);
+    let at_top = depth.simd_gt(facing.extent).select((at_bottom * facing.growth).min(one), one);
+    let lost = wave * (at_top - at_bottom) * (facing.inverse_extent * 0.5);
     let pull = (share - lost).max(zero).min(f32x8::splat(simd, 1.5));
-    let shallow = (decay * bottom).simd_lt(f32x8::splat(simd, 1.0e-3));
-    let dry = share.simd_le(zero);
-    let pull = dry.select(zero, shallow.select(share, pull));
-    (pull, shallow.select(f32x8::splat(simd, 1.0), (at_top + at_bottom) * 0.5))
+    let shallow = deep.simd_lt(f32x8::splat(simd, 1.0e-3));
+    let pull = share.simd_le(zero).select(zero, shallow.select(share, pull));
+    (pull, shallow.select(one, (at_top + at_bottom) * 0.5))
 }
 
 /// What the water does at a pose.
@@ -237,7 +245,7 @@ pub(super) fn immerse<S: Simd>(
     let normal = rotation.back(V3::new(-(sx * steep), steep, -(sz * steep)));
     let mut sums = Sums::new(simd);
     for group in &template.groups {
-        let facing = Facing::new(simd, group, normal);
+        let facing = Facing::new(simd, group, normal, if surface.fades { Some(surface.decay) } else { None });
         if surface.fades {
             sums.add::<true>(simd, group, &facing, &tilt, surface.decay);
         } else {
@@ -283,7 +291,7 @@ pub(super) fn displaced<S: Simd>(
     let normal = rotation.back(V3::new(-(sx * steep), steep, -(sz * steep)));
     let mut volume = f32x8::splat(simd, 0.0);
     for group in &template.groups {
-        let facing = Facing::new(simd, group, normal);
+        let facing = Facing::new(simd, group, normal, None);
         for spot in &group.spots {
             let u = (depth.at(spot.at) * facing.inverse_extent).max(-one).min(one);
             volume += part(simd, group.shape, facing.standing, u).0 * spot.volume;
