@@ -24,6 +24,16 @@ pub(crate) fn turned(q: Quat, turn: Vec3) -> Quat {
     ])
 }
 
+/// First `b`, then `a`, normalised.
+pub(crate) fn product(a: Quat, b: Quat) -> Quat {
+    normalized([
+        a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+        a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
+        a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x,
+        a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
+    ])
+}
+
 /// The unit quaternion along (x, y, z, w); the identity if there is none.
 pub(crate) fn normalized(c: [f32; 4]) -> Quat {
     let length = (c[0] * c[0] + c[1] * c[1] + c[2] * c[2] + c[3] * c[3]).sqrt();
@@ -91,6 +101,8 @@ mod tests {
         let small = Vec3::new(0.01, -0.02, 0.015);
         let expected = q * Quat::from_scaled_axis(small);
         assert!(turned(q, small).dot(expected).abs() > 1.0 - 1e-6);
+        let p = Quat::from_euler(glam::EulerRot::ZXY, 1.3, 0.4, -0.8);
+        assert!(product(p, q).abs_diff_eq(p * q, 1e-6));
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! Pieces of a fleet against bodies of their own, and what a fleet promises beside.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use floating_body::{
-    AiryWave, Body, BodyDesc, BodyState, Closure, Controls, FlatWater, Fleet, FleetDesc, Hull, Inertia, Radiation,
-    Sampling, TriMesh, WATER_DENSITY, WaterSurface,
+    Activity, AiryWave, Body, BodyDesc, BodyState, Closure, Controls, FlatWater, Fleet, FleetDesc, Hull, Inertia,
+    PieceId, Radiation, Sampling, SurfacePatch, SurfaceSample, TriMesh, WATER_DENSITY, WaterSurface,
 };
 use glam::{Mat3, Quat, Vec2, Vec3};
 
@@ -155,4 +157,159 @@ fn what_is_told_adds_up_to_the_change_of_the_displaced_volume() {
     // From the air to rest, drifting.
     let whole = 11.0 * f64::from(rest);
     assert!((sum / whole - 1.0).abs() < 1e-3, "{sum} of {whole}");
+}
+
+/// Still but for a bump that may be switched on and spreads with 3 m/s from the origin.
+#[derive(Default)]
+struct Pond {
+    reach: f32,
+    asked: AtomicUsize,
+}
+
+impl WaterSurface for Pond {
+    fn sample(&self, points: &[Vec2], out: &mut [SurfaceSample]) {
+        out[..points.len()].fill(SurfaceSample::CALM);
+    }
+
+    fn patch(&self, center: Vec2, _radius: f32) -> SurfacePatch {
+        let height = if (center.length() - self.reach).abs() < 3.0 { 0.05 } else { 0.0 };
+        SurfacePatch { height, velocity: Vec3::Y * height, ..SurfacePatch::default() }
+    }
+
+    fn is_calm(&self, low: Vec2, high: Vec2) -> bool {
+        self.asked.fetch_add(1, Ordering::Relaxed);
+        let nearest = Vec2::ZERO.clamp(low, high).length();
+        let farthest = low.abs().max(high.abs()).length();
+        nearest > self.reach + 3.0 || farthest < self.reach - 3.0
+    }
+}
+
+fn field(side: u32, apart: f32) -> (Fleet, Vec<PieceId>) {
+    let mut fleet = Fleet::new(FleetDesc::new(crate_desc())).unwrap();
+    let y = fleet.template().rest_height() + 0.05;
+    let spot = |i: u32| Vec3::new((i % side) as f32 * apart, y, (i / side) as f32 * apart);
+    let ids = (0..side * side).map(|i| fleet.add(BodyState::at_rest(spot(i))).unwrap()).collect();
+    (fleet, ids)
+}
+
+fn count(fleet: &Fleet, ids: &[PieceId], what: Activity) -> usize {
+    ids.iter().filter(|id| fleet.activity(**id) == Some(what)).count()
+}
+
+#[test]
+fn pieces_sleep_on_calm_water_and_wake_for_a_wave() {
+    let (mut fleet, ids) = field(20, 4.0);
+    let mut pond = Pond { reach: -1.0e3, ..Pond::default() };
+    for _ in 0..60 * 60 {
+        fleet.step(DT, &pond);
+    }
+    assert_eq!(count(&fleet, &ids, Activity::Asleep), 400);
+    let still: Vec<_> = ids.iter().map(|id| fleet.state(*id).unwrap()).collect();
+    pond.asked = AtomicUsize::new(0);
+    for _ in 0..100 {
+        fleet.step(DT, &pond);
+    }
+    assert!(pond.asked.load(Ordering::Relaxed) <= 100 * 16, "{:?} questions", pond.asked);
+    for (id, state) in ids.iter().zip(&still) {
+        assert_eq!(fleet.state(*id), Some(*state));
+    }
+    // The wave has reached some.
+    pond.reach = 20.0;
+    for _ in 0..16 {
+        fleet.step(DT, &pond);
+    }
+    for (id, state) in ids.iter().zip(&still) {
+        let distance = Vec2::new(state.position.x, state.position.z).length();
+        if (distance - 20.0).abs() < 2.0 {
+            assert_eq!(fleet.activity(*id), Some(Activity::Awake), "{distance}");
+            assert!(fleet.state(*id).unwrap().position.y > state.position.y);
+        }
+        if distance > 60.0 {
+            assert_eq!(fleet.activity(*id), Some(Activity::Asleep), "{distance}");
+        }
+    }
+    // One that is hit wakes alone; one that is removed is gone.
+    let (hit, gone) = (ids[399], ids[398]);
+    let before = count(&fleet, &ids, Activity::Asleep);
+    assert!(fleet.set_state(hit, BodyState { velocity: Vec3::X, ..still[399] }));
+    assert_eq!(fleet.activity(hit), Some(Activity::Awake));
+    assert_eq!(fleet.remove(gone), Some(still[398]));
+    assert_eq!(count(&fleet, &ids, Activity::Asleep), before - 2);
+    for (id, state) in ids.iter().zip(&still).filter(|(id, _)| fleet.activity(**id) == Some(Activity::Asleep)) {
+        assert_eq!(fleet.state(*id), Some(*state));
+    }
+}
+
+#[test]
+fn far_pieces_ride_the_waves_and_switch_without_a_jump() {
+    let (mut fleet, ids) = field(10, 4.0);
+    let mut wave = AiryWave::new(0.5, 40.0, 0.3);
+    let near = Some(Vec3::new(0.0, 5.0, 0.0));
+    let far = Some(Vec3::new(0.0, 5.0, 3000.0));
+    let mut worst = 0.0_f32;
+    let mut old: Vec<_> = ids.iter().map(|id| fleet.state(*id).unwrap()).collect();
+    for tick in 0..60 * 60 {
+        wave.time = f64::from(tick) * f64::from(DT);
+        fleet.look(if tick / 600 % 2 == 1 { far } else { near });
+        fleet.step(DT, &wave);
+        if tick % 600 == 599 {
+            let riding = count(&fleet, &ids, Activity::Riding);
+            assert_eq!(riding, if tick / 600 % 2 == 1 { 100 } else { 0 }, "at {tick}");
+        }
+        for (id, old) in ids.iter().zip(&mut old) {
+            let now = fleet.state(*id).unwrap();
+            // How far from where the mean of the velocities before and after would have brought it.
+            let on = old.position + (old.velocity + now.velocity) * (0.5 * DT);
+            if tick > 300 {
+                worst = worst.max(on.distance(now.position));
+                let surface = wave.at(Vec2::new(now.position.x, now.position.z)).height;
+                let above = now.position.y - fleet.template().rest_height() - surface;
+                assert!(above.abs() < 0.12, "{above} m off the water at {tick}");
+            }
+            *old = now;
+        }
+    }
+    assert!(worst < 0.02, "a jump of {worst} m");
+}
+
+#[test]
+fn rebasing_disturbs_nothing_whatever_pieces_do() {
+    let run = |offset: Vec2| {
+        let (mut fleet, ids) = field(10, 4.0);
+        let mut pond = Pond { reach: -1.0e3, ..Pond::default() };
+        fleet.look(Some(Vec3::new(0.0, 3.0, 590.0)));
+        for tick in 0..1200 {
+            if tick == 1100 {
+                fleet.rebase(offset);
+                pond.reach = -1.0e6;
+            }
+            fleet.step(DT, &pond);
+        }
+        let activities: Vec<_> = ids.iter().map(|id| fleet.activity(*id).unwrap()).collect();
+        let places: Vec<_> = ids.iter().map(|id| fleet.state(*id).unwrap().position).collect();
+        (activities, places)
+    };
+    let (still, moved) = (run(Vec2::ZERO), run(Vec2::new(64.0, -32.0)));
+    assert_eq!(still.0, moved.0);
+    for (a, b) in still.1.iter().zip(&moved.1) {
+        assert!((*a - *b - Vec3::new(64.0, 0.0, -32.0)).length() < 1e-4, "{a} {b}");
+    }
+}
+
+#[test]
+fn every_number_of_threads_gives_the_same_bits() {
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let (mut fleet, ids) = field(30, 3.0);
+            let mut wave = AiryWave::new(0.5, 20.0, 0.3);
+            fleet.look(Some(Vec3::new(0.0, 3.0, -400.0)));
+            for tick in 0..120 {
+                wave.time = f64::from(tick) * f64::from(DT);
+                fleet.step(DT, &wave);
+            }
+            ids.iter().map(|id| fleet.state(*id).unwrap()).collect::<Vec<_>>()
+        })
+    };
+    assert!(run(1) == run(3));
 }

@@ -9,6 +9,7 @@ use super::lanes::{LANES, Turn, V3, load, pair};
 use super::pack::{Pack, Plane};
 use super::tell::measure;
 use super::template::{Pace, Template};
+use super::tick::QUIET;
 use super::wet::Surface;
 use crate::body::LIMITS;
 use crate::forces::read_plane;
@@ -34,17 +35,32 @@ pub(super) struct Tick<'a> {
     pub(super) level: Level,
 }
 
-/// Moves `count` pieces on. Returns how many had to be put back to where they were.
-pub(super) fn run(tick: &Tick, packs: &mut [Pack], count: usize) -> u32 {
+/// What came of a tick.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Done {
+    /// Pieces that had to be put back to where they were.
+    pub(super) resets: u32,
+    /// For how long the quietest piece has been so, s.
+    pub(super) quiet: f32,
+}
+
+impl Done {
+    fn with(self, other: Self) -> Self {
+        Self { resets: self.resets + other.resets, quiet: self.quiet.max(other.quiet) }
+    }
+}
+
+/// Moves `count` pieces on.
+pub(super) fn run(tick: &Tick, packs: &mut [Pack], count: usize) -> Done {
     let one = |(i, packs): (usize, &mut [Pack])| {
         let first = i * CHUNK;
         read(tick, packs, first, count - first * LANES);
-        dispatch!(tick.level, simd => advance(simd, tick, packs))
+        dispatch!(tick.level, simd => advance(simd, tick, packs, count - first * LANES))
     };
     if packs.len() <= CHUNK {
-        return packs.chunks_mut(CHUNK).enumerate().map(one).sum();
+        return one((0, packs));
     }
-    packs.par_chunks_mut(CHUNK).enumerate().map(one).sum()
+    packs.par_chunks_mut(CHUNK).enumerate().map(one).reduce(Done::default, Done::with)
 }
 
 /// Reads the planes that are due, of `count` pieces at most; `first` is the number of the first pack.
@@ -75,13 +91,16 @@ fn read(tick: &Tick, packs: &mut [Pack], first: usize, count: usize) {
 }
 
 #[inline(always)]
-fn advance<S: Simd>(simd: S, tick: &Tick, packs: &mut [Pack]) -> u32 {
+fn advance<S: Simd>(simd: S, tick: &Tick, packs: &mut [Pack], count: usize) -> Done {
     // No closures from here on: they would not be inlined for certain, and without the machine's vectors.
-    let mut reset = 0;
-    for pack in packs {
-        reset += step(simd, tick, pack);
+    let mut done = Done::default();
+    for (i, pack) in packs.iter_mut().enumerate() {
+        done.resets += step(simd, tick, pack);
+        for quiet in pack.quiet.iter().take(count - i * LANES) {
+            done.quiet = done.quiet.max(*quiet);
+        }
     }
-    reset
+    done
 }
 
 /// The plane as it has moved on since it was read.
@@ -145,6 +164,9 @@ fn step<S: Simd>(simd: S, tick: &Tick, pack: &mut Pack) -> u32 {
     motion.velocity.store(&mut pack.velocity);
     motion.spin.store(&mut pack.spin);
     immersed.store_slice(&mut pack.immersed);
+    let still = moving.simd_lt(f32x8::splat(simd, QUIET * QUIET));
+    let quiet = still.select(load(simd, &pack.quiet) + tick.pace.tick, f32x8::splat(simd, 0.0));
+    quiet.store_slice(&mut pack.quiet);
     (load(simd, &pack.age) + tick.pace.tick).store_slice(&mut pack.age);
     if sane.all_true() { 0 } else { put_back(pack, !(sane.to_bitmask() as u32) & 0xff) }
 }

@@ -1,8 +1,11 @@
 //! Pieces that are awake: packs without gaps, and whose they are.
 
+use glam::{Quat, Vec3};
+
 use super::PieceId;
 use super::lanes::LANES;
 use super::pack::{Pack, Piece};
+use crate::BodyState;
 
 /// See the module.
 #[derive(Clone, Default)]
@@ -19,6 +22,16 @@ impl Crew {
 
     pub(super) fn get(&self, i: usize) -> Piece {
         self.packs[i / LANES].get(i % LANES)
+    }
+
+    pub(super) fn state(&self, i: usize) -> BodyState {
+        self.packs[i / LANES].state(i % LANES)
+    }
+
+    /// Before the last tick and after it.
+    pub(super) fn poses(&self, i: usize) -> [(Vec3, Quat); 2] {
+        let BodyState { position, orientation, .. } = self.state(i);
+        [self.packs[i / LANES].before(i % LANES), (position, orientation)]
     }
 
     pub(super) fn set(&mut self, i: usize, piece: &Piece) {
@@ -55,7 +68,7 @@ impl Crew {
         if last.is_multiple_of(LANES) {
             self.packs.pop();
         } else {
-            self.packs[last / LANES].set(last % LANES, &Piece::new(crate::BodyState::at_rest(glam::Vec3::ZERO)));
+            self.packs[last / LANES].set(last % LANES, &Piece::new(BodyState::at_rest(Vec3::ZERO)));
         }
         piece
     }

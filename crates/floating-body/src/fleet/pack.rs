@@ -52,6 +52,16 @@ impl Piece {
         Self { state, before, plane, quiet: 0.0, immersed: 0.0, told, told_before: told }
     }
 
+    /// Moves with the local origin.
+    pub(super) fn rebase(&mut self, offset: Vec2) {
+        let shift = Vec3::new(offset.x, 0.0, offset.y);
+        self.state.position -= shift;
+        self.before.0 -= shift;
+        for at in [&mut self.plane.water.at, &mut self.told.at, &mut self.told_before.at] {
+            *at -= offset;
+        }
+    }
+
     /// Put elsewhere: far away it starts without a splash where it now is.
     pub(super) fn moved(&self, state: BodyState, far: f32) -> Self {
         let jumped = state.position.distance(self.state.position) > far;

@@ -1,0 +1,151 @@
+//! Pieces asleep, in blocks of neighbours: a block on calm water costs one question.
+//!
+//! A block wakes as a whole, when the water over it is no longer calm and the plane under one of its pieces has moved.
+
+use glam::Vec2;
+
+use super::PieceId;
+use super::pack::Piece;
+use crate::forces::read_plane;
+use crate::{SurfacePatch, WaterSurface};
+
+/// Most pieces of a block.
+const BLOCK: usize = 64;
+/// A plane has moved that is so much higher (m), steeper, or faster (m/s) than when its piece fell asleep.
+const MOVED: (f32, f32, f32) = (0.01, 0.01, 0.02);
+
+/// Neighbours.
+#[derive(Clone)]
+pub(super) struct Block {
+    low: Vec2,
+    high: Vec2,
+    pub(super) ids: Vec<PieceId>,
+    pub(super) pieces: Vec<Piece>,
+}
+
+/// See the module.
+#[derive(Clone, Default)]
+pub(super) struct Sleepers {
+    pub(super) blocks: Vec<Block>,
+    count: usize,
+}
+
+type Sleeper = (PieceId, Piece);
+
+fn spot((_, piece): &Sleeper) -> Vec2 {
+    Vec2::new(piece.state.position.x, piece.state.position.z)
+}
+
+impl Block {
+    fn new(of: &[Sleeper], reach: f32) -> Self {
+        let mut block = Self {
+            low: Vec2::MAX,
+            high: Vec2::MIN,
+            ids: Vec::with_capacity(of.len()),
+            pieces: Vec::with_capacity(of.len()),
+        };
+        for sleeper in of {
+            block.low = block.low.min(spot(sleeper) - reach);
+            block.high = block.high.max(spot(sleeper) + reach);
+            block.ids.push(sleeper.0);
+            block.pieces.push(sleeper.1);
+        }
+        block
+    }
+
+    /// Whether the water has moved under a piece whose turn it is.
+    fn stirs(&self, water: &dyn WaterSurface, reach: f32, tick: usize, refresh: usize) -> bool {
+        if water.is_calm(self.low, self.high) {
+            return false;
+        }
+        let (mut centers, mut patches) = ([Vec2::ZERO; BLOCK], [SurfacePatch::default(); BLOCK]);
+        let first = (refresh - tick % refresh) % refresh;
+        let due = || self.pieces.iter().skip(first).step_by(refresh);
+        let mut n = 0;
+        for piece in due() {
+            centers[n] = Vec2::new(piece.state.position.x, piece.state.position.z);
+            n += 1;
+        }
+        water.patches(&centers[..n], reach, &mut patches[..n]);
+        due().zip(&centers).zip(&patches).any(|((piece, center), patch)| {
+            let (now, then) = (read_plane(*center, *patch).0, &piece.plane.water);
+            (now.height + now.own - then.height - then.own).abs() > MOVED.0
+                || now.slope.distance(then.slope) > MOVED.1
+                || now.velocity.length() > MOVED.2
+        })
+    }
+}
+
+impl Sleepers {
+    /// Takes those in who fell asleep. Returns the number of the first block that is new.
+    pub(super) fn lay(&mut self, mut new: Vec<Sleeper>, reach: f32) -> usize {
+        self.count += new.len();
+        // Those who came one by one are put together with all others.
+        let scattered = self.blocks.len() + new.len().div_ceil(BLOCK) > 2 * self.count.div_ceil(BLOCK) + 8;
+        if scattered {
+            for block in self.blocks.drain(..) {
+                new.extend(block.ids.into_iter().zip(block.pieces));
+            }
+        }
+        let first = self.blocks.len();
+        self.split(&mut new, reach);
+        first
+    }
+
+    /// Halves neighbours along the longer side of what they cover until they fit into blocks.
+    fn split(&mut self, of: &mut [Sleeper], reach: f32) {
+        if of.len() <= BLOCK {
+            if !of.is_empty() {
+                self.blocks.push(Block::new(of, reach));
+            }
+            return;
+        }
+        let (low, high) = of.iter().fold((Vec2::MAX, Vec2::MIN), |(l, h), s| (l.min(spot(s)), h.max(spot(s))));
+        let size = high - low;
+        // Whole blocks on one side.
+        let middle = of.len().div_ceil(BLOCK) / 2 * BLOCK;
+        of.select_nth_unstable_by(middle, |a, b| {
+            let (p, q) = if size.x >= size.y { (spot(a).x, spot(b).x) } else { (spot(a).y, spot(b).y) };
+            p.total_cmp(&q).then(a.0.cmp(&b.0))
+        });
+        let (left, right) = of.split_at_mut(middle);
+        self.split(left, reach);
+        self.split(right, reach);
+    }
+
+    /// Takes one out of a block. The last of the block takes its place.
+    pub(super) fn take(&mut self, block: usize, at: usize) -> Piece {
+        self.count -= 1;
+        let block = &mut self.blocks[block];
+        block.ids.swap_remove(at);
+        block.pieces.swap_remove(at)
+    }
+
+    /// The first block, from `from` on, whose water stirs, or that is empty.
+    pub(super) fn next_to_wake(
+        &self,
+        from: usize,
+        water: &dyn WaterSurface,
+        reach: f32,
+        tick: usize,
+        refresh: usize,
+    ) -> Option<usize> {
+        let stirs = |block: &Block| block.ids.is_empty() || block.stirs(water, reach, tick, refresh);
+        self.blocks.iter().skip(from).position(stirs).map(|i| i + from)
+    }
+
+    /// Takes a block out. The last takes its place.
+    pub(super) fn wake(&mut self, block: usize) -> Block {
+        let block = self.blocks.swap_remove(block);
+        self.count -= block.ids.len();
+        block
+    }
+
+    pub(super) fn rebase(&mut self, offset: Vec2) {
+        for block in &mut self.blocks {
+            block.low -= offset;
+            block.high -= offset;
+            block.pieces.iter_mut().for_each(|p| p.rebase(offset));
+        }
+    }
+}
