@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use floating_body::{
     Activity, AiryWave, Body, BodyDesc, BodyState, Closure, Controls, FlatWater, Fleet, FleetDesc, Hull, Inertia,
-    PieceId, Radiation, Sampling, SurfacePatch, SurfaceSample, TriMesh, WATER_DENSITY, WaterSurface,
+    PieceId, Quality, Radiation, Sampling, SurfacePatch, SurfaceSample, TriMesh, WATER_DENSITY, WaterSurface,
 };
 use glam::{Mat3, Quat, Vec2, Vec3};
 
@@ -122,6 +122,10 @@ fn bad_descriptions_and_states_are_refused() {
     let hull = Hull::cuboid(Vec3::new(4.0, 1.0, 2.0)).unwrap();
     let boat = FleetDesc::new(BodyDesc::boat(&hull, 2000.0, 8.0));
     assert!(Fleet::new(boat).unwrap_err().to_string().contains("engine"));
+    let memory = FleetDesc::new(BodyDesc { memory: true, ..crate_desc() });
+    assert!(Fleet::new(memory).unwrap_err().to_string().contains("memory"));
+    let clipped = FleetDesc::new(BodyDesc { quality: Quality::Clipped, ..crate_desc() });
+    assert!(Fleet::new(clipped).unwrap_err().to_string().contains("quality"));
     for refresh in [0, 17] {
         let desc = FleetDesc { refresh, ..FleetDesc::new(crate_desc()) };
         assert!(Fleet::new(desc).unwrap_err().to_string().contains("refresh"));
@@ -146,11 +150,11 @@ fn what_is_told_adds_up_to_the_change_of_the_displaced_volume() {
     let mut fleet = Fleet::new(FleetDesc { sleeps: false, ..FleetDesc::new(desc) }).unwrap();
     for i in 0..11 {
         let height = fleet.template().rest_height();
-        fleet.add(BodyState::at_rest(Vec3::new(3.0 * i as f32, height + 5.0, 0.0))).unwrap();
+        fleet.add(BodyState::at_rest(Vec3::new(3.0 * i as f32, height + 2.0, 0.0))).unwrap();
     }
     let water = FlatWater { height: 0.0, current: Vec3::new(0.3, 0.0, 0.0) };
     let mut sum = 0.0;
-    for _ in 0..3600 {
+    for _ in 0..9000 {
         fleet.step(DT, &water);
         told(&fleet, &mut sum);
     }

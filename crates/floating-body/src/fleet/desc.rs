@@ -1,7 +1,7 @@
 //! The description of a fleet, and the handles of its pieces.
 
 use crate::error::check_range;
-use crate::{BodyDesc, BodyError};
+use crate::{BodyDesc, BodyError, Quality};
 
 slotmap::new_key_type! {
     /// A piece of a [`Fleet`](crate::Fleet). It stays the same until the piece is removed and names no other after that.
@@ -11,7 +11,7 @@ slotmap::new_key_type! {
 /// What a fleet is to be made of.
 #[derive(Clone, Debug)]
 pub struct FleetDesc {
-    /// Every piece. It must have no engine; [`BodyDesc::sampling`] is always a patch.
+    /// Every piece. It must have no engine, no memory and quality by points; [`BodyDesc::sampling`] is always a patch.
     pub body: BodyDesc,
     /// Ticks from one reading of the water under a piece to the next, 1 to 16: meanwhile its plane is carried on with its
     /// velocity and acceleration. Default 4.
@@ -34,6 +34,14 @@ impl FleetDesc {
         if self.body.engine.is_some() {
             let bound = "none: pieces of a fleet have no engine, a body of its own has";
             return Err(BodyError::InvalidValue { field: "body.engine", value: 1.0, bound });
+        }
+        if self.body.memory {
+            let bound = "false: pieces of a fleet do not remember their waves, a body of its own does";
+            return Err(BodyError::InvalidValue { field: "body.memory", value: 1.0, bound });
+        }
+        if self.body.quality != Quality::Points {
+            let bound = "Points: pieces of a fleet are not clipped, a body of its own is";
+            return Err(BodyError::InvalidValue { field: "body.quality", value: 1.0, bound });
         }
         check_range("refresh", self.refresh as f32, 1.0, 16.0, "in [1, 16] ticks")?;
         check_range("ride_below", self.ride_below, 0.0, 1.0, "in [0, 1] rad").map(drop)

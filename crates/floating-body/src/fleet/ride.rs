@@ -133,7 +133,8 @@ impl Rider {
 /// What a tick is like for riders.
 pub(super) struct Ride<'a> {
     pub(super) water: &'a dyn WaterSurface,
-    pub(super) reach: f32,
+    /// Of the disc over which the water is averaged, m.
+    pub(super) footprint: f32,
     pub(super) felt: bool,
     pub(super) tick: usize,
     /// Ticks from one reading to the next.
@@ -155,7 +156,7 @@ pub(super) fn run(ride: &Ride, riders: &mut [Rider]) {
             centers[n] = rider.spot + Vec2::new(flow.x, flow.z) * (ride.now - rider.since) as f32;
             n += 1;
         }
-        ride.water.patches(&centers[..n], ride.reach, &mut patches[..n]);
+        ride.water.patches(&centers[..n], ride.footprint, &mut patches[..n]);
         for (rider, patch) in riders.iter_mut().skip(first).step_by(ride.refresh).zip(patches) {
             rider.read(patch, ride.now, ride.every, ride.felt);
         }

@@ -54,7 +54,7 @@ impl Block {
     }
 
     /// Whether the water has moved under a piece whose turn it is.
-    fn stirs(&self, water: &dyn WaterSurface, reach: f32, tick: usize, refresh: usize) -> bool {
+    fn stirs(&self, water: &dyn WaterSurface, footprint: f32, tick: usize, refresh: usize) -> bool {
         if water.is_calm(self.low, self.high) {
             return false;
         }
@@ -66,7 +66,7 @@ impl Block {
             centers[n] = Vec2::new(piece.state.position.x, piece.state.position.z);
             n += 1;
         }
-        water.patches(&centers[..n], reach, &mut patches[..n]);
+        water.patches(&centers[..n], footprint, &mut patches[..n]);
         due().zip(&centers).zip(&patches).any(|((piece, center), patch)| {
             let (now, then) = (read_plane(*center, *patch).0, &piece.plane.water);
             (now.height + now.own - then.height - then.own).abs() > MOVED.0
@@ -126,11 +126,11 @@ impl Sleepers {
         &self,
         from: usize,
         water: &dyn WaterSurface,
-        reach: f32,
+        footprint: f32,
         tick: usize,
         refresh: usize,
     ) -> Option<usize> {
-        let stirs = |block: &Block| block.ids.is_empty() || block.stirs(water, reach, tick, refresh);
+        let stirs = |block: &Block| block.ids.is_empty() || block.stirs(water, footprint, tick, refresh);
         self.blocks.iter().skip(from).position(stirs).map(|i| i + from)
     }
 

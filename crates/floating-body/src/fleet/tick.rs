@@ -60,9 +60,9 @@ impl Fleet {
 
     /// Wakes the blocks whose water moves.
     fn wake(&mut self, water: &dyn WaterSurface) {
-        let (reach, refresh) = (self.template.reach, self.desc.refresh as usize);
+        let (footprint, refresh) = (self.template.footprint, self.desc.refresh as usize);
         let mut from = 0;
-        while let Some(block) = self.sleepers.next_to_wake(from, water, reach, self.ticks, refresh) {
+        while let Some(block) = self.sleepers.next_to_wake(from, water, footprint, self.ticks, refresh) {
             let woken = self.sleepers.wake(block);
             for (id, piece) in woken.ids.into_iter().zip(&woken.pieces) {
                 self.index[id] = Place::Awake(self.awake.len());
@@ -157,7 +157,7 @@ impl Fleet {
     fn ride(&mut self, water: &dyn WaterSurface) {
         let ride = Ride {
             water,
-            reach: self.template.reach,
+            footprint: self.template.footprint,
             felt: self.felt,
             tick: self.ticks,
             refresh: ride::refresh(self.desc.refresh as usize),
