@@ -123,6 +123,10 @@ pub trait WaterSurface: Sync {
     fn touch(&self, _points: &[Vec3], _out: &mut [Touch]) -> bool {
         false
     }
+    /// Velocity of the wind 10 m above the water in m/s, the same everywhere.
+    fn wind(&self) -> Vec3 {
+        Vec3::ZERO
+    }
     /// Whose waves `own` holds.
     fn home(&self) -> Home {
         Home::None

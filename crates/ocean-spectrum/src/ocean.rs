@@ -209,10 +209,11 @@ impl Ocean {
         self.map.as_ref().map(|placed| &placed.map)
     }
 
-    /// What queries read, made if it is not there.
-    pub(crate) fn layers(&self, reads: Outputs) -> Layers<'_> {
+    /// What queries read of the longest `count` cascades, made if it is not there.
+    pub(crate) fn layers(&self, count: usize, reads: Outputs) -> Layers<'_> {
         let mut views = [View::default(); MAX_CASCADES];
-        for (c, ((view, modes), layer)) in views.iter_mut().zip(&self.base.modes).zip(&self.layers).enumerate() {
+        let layers = &self.layers[..count];
+        for (c, ((view, modes), layer)) in views.iter_mut().zip(&self.base.modes).zip(layers).enumerate() {
             let size = modes.size as usize;
             let texels =
                 |texels: fn(&Synthesis) -> &[[f32; 4]]| Texels { size, flat: texels(&layer.fields).as_flattened() };
@@ -227,7 +228,7 @@ impl Ocean {
                 view.velocity = texels(Synthesis::velocity);
             }
         }
-        Layers { count: self.layers.len(), views, map: self.map.as_ref() }
+        Layers { count, views, map: self.map.as_ref() }
     }
 
     /// What queries sum where the description says so.
@@ -251,6 +252,14 @@ impl Ocean {
             *tile = (modes.tile.into(), self.offset_within(c));
         }
         direct.parts[0].is_some().then_some(direct)
+    }
+
+    /// Significant height in metres of the sea at the time set where it is highest between two local corners, as a map of
+    /// amplitudes leaves it there.
+    pub fn significant_height_within(&self, low: Vec2, high: Vec2) -> f32 {
+        let factors = self.map.as_ref().map_or([1.0; MAX_CASCADES], |map| map.largest(low, high));
+        let variance = self.layers.iter().zip(factors).map(|(layer, f)| f * f * layer.band.variance);
+        4.0 * variance.sum::<f32>().sqrt()
     }
 
     fn offset_within(&self, c: usize) -> DVec2 {

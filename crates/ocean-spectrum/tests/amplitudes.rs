@@ -230,3 +230,20 @@ fn maps_out_of_bounds_are_refused() {
     }
     assert!(AmplitudeMap::new(zero, 1.0, [3, 2], good()).is_ok());
 }
+
+#[test]
+fn the_height_within_a_rectangle_is_the_largest_there() {
+    let mut ocean = sea();
+    let all = ocean.significant_height_within(Vec2::splat(-1e4), Vec2::splat(1e4));
+    assert!((all / ocean.significant_height() - 1.0).abs() < 1e-3, "{all}");
+    // Calm behind x = 40 m.
+    let mole = |place: DVec2| [if place.x > 40.0 { 0.0 } else { 0.5 }; 8];
+    ocean.set_amplitudes(Some(map(5.0, 41, mole)));
+    let within = |low: [f32; 2], high: [f32; 2]| ocean.significant_height_within(low.into(), high.into());
+    assert_eq!(within([46.0, -90.0], [80.0, 90.0]), 0.0);
+    assert_eq!(within([300.0, 300.0], [301.0, 301.0]), 0.0);
+    for (low, high) in [([44.0, 0.0], [60.0, 9.0]), ([-999.0, 0.0], [-998.0, 1.0]), ([60.0, 9.0], [30.0, 0.0])] {
+        assert!((within(low, high) / all - 0.5).abs() < 1e-3, "{low:?}");
+    }
+    assert!((within([f32::NAN; 2], [60.0, 9.0]) / all - 0.5).abs() < 1e-3);
+}

@@ -169,6 +169,16 @@ fn an_answer_does_not_depend_on_its_company() {
     for i in [0, 255, 256, 999] {
         assert_eq!(answers(&ocean, &points[i..=i])[0], together[i]);
     }
+    // Large bodies do not even feel all cascades.
+    let radii: Vec<f32> = (0..points.len()).map(|i| [0.0, 0.4, 1.1, 3.0, 20.0, 4000.0][i % 6]).collect();
+    let mut patches = vec![ocean_spectrum::OceanPatch::default(); points.len()];
+    ocean.patches(&points, &radii, &mut patches);
+    for ((&point, &radius), patch) in points.iter().zip(&radii).zip(&patches) {
+        assert_eq!(ocean.patch(point, radius), *patch, "{radius}");
+    }
+    let mut prepared = ocean.clone();
+    prepared.prepare_patches(1.1);
+    assert_eq!(prepared.patch(points[2], 1.1), patches[2]);
 }
 
 #[test]

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use slotmap::SlotMap;
 use wave_grid::{Pattern, PatternKernel, Scheme, Source};
 
-use crate::cpu::surface::{BodyWater, Composite};
+use crate::cpu::body_water::BodyWater;
+use crate::cpu::surface::Composite;
 use crate::grids::{Grid, Grids, Sim};
 use crate::handover::{Homes, Settler};
 use crate::store::{BodyId, BodyMotion, BodyStore, GridId, Wants};

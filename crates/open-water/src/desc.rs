@@ -1,7 +1,7 @@
 //! Descriptions: what a water, a grid and a view are made from, and the presets.
 
 use floating_body::BodyDesc;
-use glam::{DVec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 use ocean_spectrum::{CascadeDesc, OceanDesc, SeaState};
 use wave_grid::{Border, Edges, Rain, Scheme};
 
@@ -19,6 +19,9 @@ pub struct OpenWaterDesc {
     pub cascades: Vec<CascadeDesc>,
     /// How far crests are sharpened, 0 to 1.
     pub choppiness: f32,
+    /// Velocity of the wind 10 m above the water (x, z), m/s, within 100 m/s. It pushes bodies that have a wind drag and
+    /// makes no waves: those are the sea's.
+    pub wind: Vec2,
     /// Length of the fixed tick, seconds, 0.001 to 0.1.
     pub tick: f32,
     /// Most ticks that one frame may run, 1 to 64; what is due beyond them is dropped and reported.
@@ -40,7 +43,7 @@ impl OpenWaterDesc {
         if !(1..=64).contains(&self.max_ticks_per_frame) {
             return invalid("max_ticks_per_frame", f64::from(self.max_ticks_per_frame), "1 to 64");
         }
-        Ok(())
+        check_wind(self.wind)
     }
 
     pub(crate) fn ocean(&self) -> OceanDesc {
@@ -52,6 +55,14 @@ impl OpenWaterDesc {
             ..OceanDesc::default()
         }
     }
+}
+
+/// Refuses a wind that is none.
+pub(crate) fn check_wind(wind: Vec2) -> Result<(), OpenWaterError> {
+    if wind.length() <= 100.0 {
+        return Ok(());
+    }
+    Err(OpenWaterError::InvalidValue { field: "wind", value: wind.length().into(), bound: "within 100 m/s" })
 }
 
 /// Where a grid is stepped.
@@ -154,6 +165,7 @@ impl Preset {
             seed: 1,
             cascades: tiles.iter().map(|&tile| CascadeDesc::new(size, tile)).collect(),
             choppiness: 1.0,
+            wind: Vec2::ZERO,
             tick: 1.0 / 60.0,
             max_ticks_per_frame: 8,
         }

@@ -70,6 +70,22 @@ impl Grid {
         }
     }
 
+    /// A bound of its waves between two local corners, now and after the next tick, metres.
+    pub(crate) fn largest_within(&self, low: Vec2, high: Vec2) -> f32 {
+        match &self.sim {
+            Sim::Cpu(grid) => self.gain * grid.largest_within(low, high),
+            // Nobody knows, but waves are where the window is.
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => {
+                let window = grid.window();
+                let [a, b] = [low, high].map(|corner| window.cells_from_corner(corner, DVec2::ZERO));
+                let cells = DVec2::new(f64::from(window.cells[0]), f64::from(window.cells[1]));
+                let apart = a.max(b).cmplt(DVec2::ZERO).any() || a.min(b).cmpgt(cells).any();
+                if grid.is_awake() && !apart { f32::INFINITY } else { 0.0 }
+            }
+        }
+    }
+
     /// Whether it stands for the whole plane.
     pub(crate) fn repeats(&self) -> bool {
         self.desc.border == Border::Periodic

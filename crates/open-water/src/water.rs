@@ -8,7 +8,7 @@ use crate::OpenWaterError;
 use crate::bodies::{Bodies, Pose};
 use crate::clock::{Clock, Tick, Ticks};
 use crate::cpu::surface::{Composite, WaterSample};
-use crate::desc::OpenWaterDesc;
+use crate::desc::{OpenWaterDesc, check_wind};
 use crate::follow::Look;
 use crate::grids::Grids;
 use crate::land::Shore;
@@ -182,7 +182,9 @@ impl OpenWater {
                 // On all threads; the bodies' tasks would wait for whichever asks first.
                 ocean.prepare(Outputs::ALL);
             }
-            self.bodies.step(tick.dt, Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore });
+            let water =
+                Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore, wind: self.desc.wind };
+            self.bodies.step(tick.dt, water);
             self.bodies.disturb(&mut self.grids);
             self.bodies.write(store);
         }
@@ -200,6 +202,7 @@ impl OpenWater {
         self.grids.cut_holes();
         self.note_hulls();
         self.tick = tick.index;
+        self.shore.found = self.shore.level;
         if let Some(ocean) = &mut self.ocean {
             ocean.set_time(tick.time());
         }
@@ -211,7 +214,21 @@ impl OpenWater {
     /// The water at local positions (x, z) after the last tick, at once: as many answers as the shorter slice holds.
     /// The horizontal displacement is inverted, all grids are included. Calm water for points that are not finite.
     pub fn sample(&self, points: &[Vec2], out: &mut [WaterSample]) {
-        Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore }.surface_at(points, out);
+        self.composite().surface_at(points, out);
+    }
+
+    fn composite(&self) -> Composite<'_> {
+        Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore, wind: self.desc.wind }
+    }
+
+    /// Lets another wind blow from the next tick on; see [`OpenWaterDesc::wind`].
+    ///
+    /// # Errors
+    /// It is not finite or faster than 100 m/s; then nothing was changed.
+    pub fn set_wind(&mut self, wind: Vec2) -> Result<(), OpenWaterError> {
+        check_wind(wind)?;
+        self.desc.wind = wind;
+        Ok(())
     }
 
     /// The ambient sea; `None` when it is calm.

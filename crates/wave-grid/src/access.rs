@@ -1,12 +1,36 @@
 //! What can be asked of a grid and set on it besides stepping.
 
+use glam::Vec2;
+
 use crate::source::HEIGHT_LIMIT;
-use crate::{GridDesc, GridError, Stepping, WaveGrid, Window, cpu};
+use crate::{Border, GridDesc, GridError, Stepping, WaveGrid, Window, cpu};
 
 impl WaveGrid {
     /// Where the window stands: world corner in cells, extent, cell size.
     pub fn window(&self) -> Window {
         self.place.window
+    }
+
+    /// A bound of the heights between two local corners and of what can get there in the next tick, metres, without fade;
+    /// 0 outside the window. It is that of whole tiles of 16 cells.
+    pub fn largest_within(&self, low: Vec2, high: Vec2) -> f32 {
+        if self.at_rest() {
+            return 0.0;
+        }
+        if self.desc.border == Border::Periodic {
+            return self.tiles.tiles.iter().fold(0.0, |most, tile| tile.height.max(most));
+        }
+        let window = &self.place.window;
+        let [a, b] = [low, high].map(|corner| window.cells_from_corner(corner, self.origin));
+        let reach = f64::from(self.stepping.substeps) + 2.0;
+        let (first, last) = (a.min(b) - reach, a.max(b) + reach);
+        let range = |axis: usize, first: f64, last: f64| {
+            let n = window.cells[axis] as usize;
+            let (from, to) = (first.max(0.0) as usize, last.min(n as f64 - 1.0));
+            (first < n as f64 && to >= 0.0).then(|| self.tiles.of(axis, from)..=self.tiles.of(axis, to as usize))
+        };
+        let (Some(columns), Some(rows)) = (range(0, first.x, last.x), range(1, first.y, last.y)) else { return 0.0 };
+        rows.flat_map(|row| &self.tiles.row(row)[columns.clone()]).fold(0.0, |most, tile| tile.height.max(most))
     }
 
     /// The description it was made from.

@@ -55,9 +55,9 @@ fn answers(ocean: &Ocean, level: Level, points: &[Vec2]) -> Answers {
     let mut heights = vec![0.0; points.len()];
     // A body's size belongs to its place here, so that it comes along.
     let radii: Vec<f32> = points.iter().map(|p| (p.x.abs() % 7.0).min(5.0)).collect();
-    ocean.answer(level, Samples, points, &mut samples);
-    ocean.answer(level, Patches { radii: &radii }, points, &mut patches);
-    ocean.answer(level, Heights, points, &mut heights);
+    ocean.answer(level, ocean.layers.len(), Samples, points, &mut samples);
+    ocean.answer(level, ocean.layers.len(), Patches { radii: &radii }, points, &mut patches);
+    ocean.answer(level, ocean.layers.len(), Heights, points, &mut heights);
     Answers { samples, patches, heights: heights.into_iter().map(f32::to_bits).collect() }
 }
 

@@ -113,6 +113,31 @@ impl Placed {
         mix(self.corners(&place), place.t)
     }
 
+    /// The largest factors between two local corners; those of everywhere if they are not numbers.
+    pub(crate) fn largest(&self, low: Vec2, high: Vec2) -> CascadeFactors {
+        let last = self.map.size.map(|n| n as usize - 1);
+        let texels = |from: f32, to: f32, corner: f32, last: usize| {
+            let at = |place: f32| (place - corner) / self.map.texel;
+            let (from, to) = (at(from), at(to));
+            if from.is_nan() || to.is_nan() {
+                return 0..=last;
+            }
+            // From the texel before the first to the one after the last; outside the edge goes on.
+            (from.min(to).floor() as usize).min(last)..=(from.max(to).ceil() as usize).min(last)
+        };
+        let columns = texels(low.x, high.x, self.corner.x, last[0]);
+        let rows = texels(low.y, high.y, self.corner.y, last[1]);
+        let mut largest = [0.0f32; 8];
+        for row in rows {
+            for factors in &self.map.factors[row * (last[0] + 1)..][columns.clone()] {
+                for (most, factor) in largest.iter_mut().zip(factors) {
+                    *most = most.max(*factor);
+                }
+            }
+        }
+        largest
+    }
+
     /// The slopes of the factors there, by x and by z, 1/m.
     pub(crate) fn slopes(&self, rest: Vec2) -> [CascadeFactors; 2] {
         let place = self.place(rest);

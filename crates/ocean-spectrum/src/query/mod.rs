@@ -233,11 +233,11 @@ impl Answer for Samples {
 }
 
 impl Ocean {
-    /// Answers as the description says, from the arrays that the answers read.
-    pub(crate) fn answer<A: Answer>(&self, level: Level, how: A, points: &[Vec2], out: &mut [A::Out]) {
+    /// Answers as the description says, from the arrays that the answers read of so many cascades, the longest.
+    pub(crate) fn answer<A: Answer>(&self, level: Level, count: usize, how: A, points: &[Vec2], out: &mut [A::Out]) {
         match self.direct() {
             Some(direct) => run(level, &direct, how, points, out),
-            None => run(level, &self.layers(A::READS), how, points, out),
+            None => run(level, &self.layers(count, A::READS), how, points, out),
         }
     }
 
@@ -246,7 +246,7 @@ impl Ocean {
     pub fn heights(&mut self, points: &[Vec2], t: f64, out: &mut [f32]) {
         self.set_time(t);
         self.make(Outputs::default());
-        self.answer(Level::new(), Heights, points, out);
+        self.answer(Level::new(), self.layers.len(), Heights, points, out);
     }
 
     /// [`Ocean::sample`] at a time, seconds: [`Ocean::set_time`] first.
@@ -266,13 +266,13 @@ impl Ocean {
     /// The sea at local positions (x, z), metres, at the time set, on rayon's threads; as many answers as the shorter
     /// slice holds. Calm water where a position is not finite or farther than 10^8 m.
     pub fn sample(&self, points: &[Vec2], out: &mut [OceanSample]) {
-        self.answer(Level::new(), Samples, points, out);
+        self.answer(Level::new(), self.layers.len(), Samples, points, out);
     }
 
     /// Height at a local position, metres; see [`Ocean::sample`].
     pub fn height(&self, point: Vec2) -> f32 {
         let mut out = [0.0];
-        self.answer(Level::new(), Heights, &[point], &mut out);
+        self.answer(Level::new(), self.layers.len(), Heights, &[point], &mut out);
         out[0]
     }
 }

@@ -2,6 +2,7 @@
 
 use fearless_simd::{Level, Simd, f32x8, prelude::*};
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
 use crate::query::Answer;
 use crate::query::invert::{Field, Group, Motion};
@@ -23,8 +24,9 @@ pub struct OceanPatch {
     pub decay_wavenumber: f32,
 }
 
-/// A cascade of which bodies feel less than this share is not read for them.
-const LEAST_SHARE: f32 = 0.02;
+/// A body of radius r feels less than 2 % of waves with a wavenumber k from `k r` on as long as this, and nothing of their
+/// cascade is read for it.
+const FELT: f32 = 3.74;
 
 /// The last step on the way to the rest point as a share of the body's radius, and at most, metres: over that way the
 /// surface is a plane as far as the body feels, whose mean over its area is rougher by far.
@@ -62,11 +64,16 @@ impl Band {
         Self { variance: sum, wavenumber: weighted / sum }
     }
 
-    /// Share of the waves that bodies of these radii feel, 0 where it is next to nothing.
+    /// Share of the waves that bodies of these radii feel.
     #[inline(always)]
     pub(crate) fn share<S: Simd>(&self, simd: S, radius: f32x8<S>) -> f32x8<S> {
-        let share = disc_mean(simd, radius * self.wavenumber);
-        share.simd_gt(f32x8::splat(simd, LEAST_SHARE)).select(share, f32x8::splat(simd, 0.0))
+        let x = radius * self.wavenumber;
+        x.simd_lt(f32x8::splat(simd, FELT)).select(disc_mean(simd, x), f32x8::splat(simd, 0.0))
+    }
+
+    /// Whether that is more than nothing for bodies of this radius or larger.
+    fn is_felt(&self, radius: f32) -> bool {
+        radius * self.wavenumber < FELT
     }
 }
 
@@ -160,8 +167,22 @@ impl Ocean {
     /// of the kernel between the heights. Calm water where the position is not finite or farther than
     /// 10^8 m; a radius that is negative or not a number counts as 0.
     pub fn patches(&self, centers: &[Vec2], radii: &[f32], out: &mut [OceanPatch]) {
-        let count = radii.len().min(centers.len());
-        self.answer(Level::new(), Patches { radii }, &centers[..count], out);
+        let count = radii.len().min(centers.len()).min(out.len());
+        let least = radii[..count].iter().fold(f32::INFINITY, |least, radius| least.min(*radius));
+        self.answer(Level::new(), self.felt(least), Patches { radii }, &centers[..count], out);
+    }
+
+    /// Makes what [`Ocean::patches`] of bodies of this radius (metres) or larger reads at the time set, as
+    /// [`Ocean::prepare`] does: less than for samples, the less the larger they are.
+    pub fn prepare_patches(&mut self, radius: f32) {
+        let felt = self.felt(radius);
+        self.layers[..felt].par_iter_mut().for_each(|layer| layer.fields.prepare(Patches::READS));
+    }
+
+    /// How many cascades, the longest, bodies of this radius or larger feel.
+    pub(crate) fn felt(&self, radius: f32) -> usize {
+        let radius = radius.max(0.0);
+        self.layers.iter().rposition(|layer| layer.band.is_felt(radius)).map_or(1, |last| last + 1)
     }
 
     /// The sea under one body; see [`Ocean::patches`].

@@ -1,21 +1,19 @@
 //! The composite surface on the CPU: the twin of `wgsl/shared/surface.wgsl`.
 //!
-//! Answers from the state after the last tick. Bodies see it through [`BodyWater`], which knows which grid is the
-//! body's own.
+//! Answers from the state after the last tick. Bodies see it through `body_water.rs`.
 
-use floating_body::{Home, SurfacePatch, SurfaceSample, WaterSurface};
+use floating_body::{SurfacePatch, Touch};
 use glam::{Vec2, Vec3};
-use ocean_spectrum::{Ocean, OceanSample};
-use wave_grid::{GridSample, Pattern};
+use ocean_spectrum::{Ocean, OceanPatch, OceanSample};
+use wave_grid::GridSample;
 
-use crate::bodies::carries;
-use crate::grids::{Grid, Grids, Sim};
-use crate::handover::Homes;
+use crate::grids::{Grid, Grids};
 use crate::land::Shore;
-use crate::store::BodyId;
 
 /// Points answered at a time, on the stack.
-const BATCH: usize = 32;
+pub(super) const BATCH: usize = 32;
+/// Waves below this height, metres, are calm.
+const CALM: f32 = 2e-3;
 
 /// The water at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +38,7 @@ impl Default for WaterSample {
 }
 
 /// Height of the water that a body finds where there is none: far below everything.
-const NO_WATER: f32 = -1000.0;
+pub(super) const NO_WATER: f32 = -1000.0;
 
 /// What all waters are made of, as one state.
 #[derive(Clone, Copy)]
@@ -48,10 +46,12 @@ pub(crate) struct Composite<'a> {
     pub(crate) ocean: Option<&'a Ocean>,
     pub(crate) grids: &'a Grids,
     pub(crate) shore: &'a Shore,
+    /// Velocity 10 m above the water, m/s.
+    pub(crate) wind: Vec2,
 }
 
 impl Composite<'_> {
-    fn ambient(&self, points: &[Vec2], out: &mut [OceanSample]) {
+    pub(super) fn ambient(&self, points: &[Vec2], out: &mut [OceanSample]) {
         match self.ocean {
             Some(ocean) => ocean.sample(points, out),
             None => out.fill(OceanSample::default()),
@@ -82,8 +82,54 @@ impl Composite<'_> {
     }
 }
 
+impl Composite<'_> {
+    /// The water under bodies of one radius, given what of the grids' waves is others' and own. At most [`BATCH`].
+    pub(super) fn patches(
+        &self,
+        centers: &[Vec2],
+        radius: f32,
+        (others, own): (&[GridSample], &[GridSample]),
+        out: &mut [SurfacePatch],
+    ) {
+        let level = self.shore.level;
+        let mut ambient = [OceanPatch::default(); BATCH];
+        if let Some(ocean) = self.ocean {
+            ocean.patches(centers, &[radius; BATCH], &mut ambient);
+        }
+        for (i, (center, out)) in centers.iter().zip(out).enumerate() {
+            let (a, others, own) = (&ambient[i], &others[i], &own[i]);
+            *out = SurfacePatch {
+                height: level + a.height + others.height,
+                level,
+                gradient: a.gradient + others.slope,
+                own: own.height,
+                // What a body displaces is measured with this slope: it must hold none of its own waves.
+                own_gradient: Vec2::ZERO,
+                velocity: a.velocity + Vec3::Y * others.vertical_velocity,
+                acceleration: a.vertical_acceleration,
+                decay_wavenumber: a.decay_wavenumber,
+            };
+            if self.shore.is_kept_dry(*center) {
+                *out = SurfacePatch { height: NO_WATER, level: NO_WATER, ..SurfacePatch::default() };
+            }
+        }
+    }
+
+    /// Whether there is next to no wave between two corners, now and after the next tick, and the level stands still.
+    pub(super) fn is_calm(&self, low: Vec2, high: Vec2) -> bool {
+        self.shore.stands()
+            && self.grids.iter().all(|grid| grid.largest_within(low, high) < CALM)
+            && self.ocean.is_none_or(|ocean| ocean.significant_height_within(low, high) < CALM)
+    }
+
+    /// What is solid at points.
+    pub(super) fn touch(&self, points: &[Vec3], out: &mut [Touch]) -> bool {
+        self.shore.terrain.as_ref().is_some_and(|terrain| terrain.touch(points, out))
+    }
+}
+
 /// Adds a share of a grid's waves.
-fn add(grid: &Grid, points: &[Vec2], share: f32, sum: &mut [GridSample]) {
+pub(super) fn add(grid: &Grid, points: &[Vec2], share: f32, sum: &mut [GridSample]) {
     let mut one = [GridSample::default(); BATCH];
     let one = &mut one[..points.len()];
     grid.sample(points, one);
@@ -95,114 +141,10 @@ fn add(grid: &Grid, points: &[Vec2], share: f32, sum: &mut [GridSample]) {
 }
 
 /// Adds a slope to a surface with this normal.
-fn tilt(normal: Vec3, slope: Vec2) -> Vec3 {
+pub(super) fn tilt(normal: Vec3, slope: Vec2) -> Vec3 {
     if slope == Vec2::ZERO {
         return normal;
     }
     let up = normal.y.max(1e-3);
     Vec3::new(normal.x / up - slope.x, 1.0, normal.z / up - slope.y).normalize()
-}
-
-/// The water as one body sees it.
-pub(crate) struct BodyWater<'a> {
-    pub(crate) water: Composite<'a>,
-    pub(crate) body: BodyId,
-    /// The grid that the body disturbs, and what else holds its waves. They go into `own` and nowhere else: what the body
-    /// displaces is measured against everything else, and would grow if any of its own waves were in there.
-    pub(crate) homes: &'a Homes,
-    /// The body feels its own waves.
-    pub(crate) by_grid: bool,
-    /// Its textures, as the home grid writes and reads them.
-    pub(crate) pattern: Option<&'a Pattern>,
-}
-
-impl BodyWater<'_> {
-    /// A body that makes no waves has none of its own to tell apart.
-    fn others_and_own(&self, points: &[Vec2], others: &mut [GridSample], own: &mut [GridSample]) {
-        for grid in self.water.grids.iter() {
-            let share = self.homes.share(grid);
-            if share == 0.0 || share == 1.0 {
-                add(grid, points, 1.0, if share == 1.0 { &mut *own } else { &mut *others });
-            } else {
-                add(grid, points, share, own);
-                add(grid, points, 1.0 - share, others);
-            }
-        }
-    }
-}
-
-impl WaterSurface for BodyWater<'_> {
-    fn sample(&self, points: &[Vec2], out: &mut [SurfaceSample]) {
-        for (points, out) in points.chunks(BATCH).zip(out.chunks_mut(BATCH)) {
-            let n = points.len().min(out.len());
-            let points = &points[..n];
-            let mut ambient = [OceanSample::default(); BATCH];
-            self.water.ambient(points, &mut ambient[..n]);
-            let mut others = [GridSample::default(); BATCH];
-            let mut own = [GridSample::default(); BATCH];
-            self.others_and_own(points, &mut others[..n], &mut own[..n]);
-            let k = self.water.ocean.map_or(0.0, Ocean::peak_wavenumber);
-            let level = self.water.shore.level;
-            for (i, out) in out[..n].iter_mut().enumerate() {
-                let (a, g) = (&ambient[i], &others[i]);
-                if self.water.shore.is_kept_dry(points[i]) {
-                    *out = SurfaceSample { height: NO_WATER, level: NO_WATER, ..SurfaceSample::CALM };
-                    continue;
-                }
-                *out = SurfaceSample {
-                    height: level + a.height + g.height,
-                    level,
-                    own: own[i].height,
-                    normal: tilt(a.normal, g.slope),
-                    velocity: a.velocity + Vec3::Y * g.vertical_velocity,
-                    acceleration: a.vertical_acceleration,
-                    decay_wavenumber: k,
-                };
-            }
-        }
-    }
-
-    fn home(&self) -> Home {
-        let grid = self.homes.now().and_then(|home| self.water.grids.get(home).ok());
-        match grid {
-            Some(grid) if grid.follows(self.body) => Home::Own,
-            Some(_) => Home::Shared,
-            // The waves it left behind are felt on as they were.
-            None if self.by_grid && self.homes.any() => Home::Shared,
-            None => Home::None,
-        }
-    }
-
-    fn radiated(&self, at: Vec2, heading: f32) -> Option<[f32; 3]> {
-        let grid = self.homes.now().and_then(|home| self.water.grids.get(home).ok())?;
-        match &grid.sim {
-            Sim::Cpu(sim) if carries(grid).is_some() => {
-                let [heave, roll, pitch, _] = sim.read_pattern(self.pattern?, at, heading);
-                Some([heave, roll, pitch])
-            }
-            _ => None,
-        }
-    }
-
-    fn patch(&self, center: Vec2, radius: f32) -> SurfacePatch {
-        if self.water.shore.is_kept_dry(center) {
-            return SurfacePatch { height: NO_WATER, level: NO_WATER, ..SurfacePatch::default() };
-        }
-        let level = self.water.shore.level;
-        let a = self.water.ocean.map_or_else(Default::default, |ocean| ocean.patch(center, radius));
-        let mut others = [GridSample::default()];
-        let mut own = [GridSample::default()];
-        self.others_and_own(&[center], &mut others, &mut own);
-        SurfacePatch {
-            height: level + a.height + others[0].height,
-            level,
-            gradient: a.gradient + others[0].slope,
-            own: own[0].height,
-            // What a body displaces is measured with this slope: it must hold none of its own waves.
-            own_gradient: Vec2::ZERO,
-            velocity: a.velocity + Vec3::Y * others[0].vertical_velocity,
-            acceleration: a.vertical_acceleration,
-            decay_wavenumber: a.decay_wavenumber,
-        }
-    }
 }

@@ -2,8 +2,8 @@
 //!
 //! A grid reads the maps wherever its window is: speed from the depth, walls from obstacles and dry land, damping on the
 //! beach. The ambient sea cannot slow or bend; near land its amplitudes fall with depth and shelter, and a fixed grid
-//! that is fed through its edges takes over the waves that it can carry. Bodies do not collide with the bed: that is
-//! the physics engine's.
+//! that is fed through its edges takes over the waves that it can carry. Bodies touch the
+//! bed and the obstacles; those of a physics engine are left to the engine.
 
 mod bake;
 mod depth;
@@ -11,6 +11,7 @@ mod feed;
 mod polygon;
 mod reach;
 mod shore;
+mod solid;
 mod terrain;
 
 use glam::DVec2;

@@ -54,15 +54,32 @@ impl Polygon {
         if !self.may_touch(p - reach, p + reach) {
             return reach;
         }
-        if self.contains(p) {
-            return 0.0;
-        }
-        let to_edge = |(a, b): (DVec2, DVec2)| {
+        if self.contains(p) { 0.0 } else { self.nearest(p).distance(p).min(reach) }
+    }
+
+    /// The place of the outline that is nearest.
+    fn nearest(&self, p: DVec2) -> DVec2 {
+        let on_edge = |(a, b): (DVec2, DVec2)| {
             let along = b - a;
-            let t = ((p - a).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0);
-            p.distance(a + t * along)
+            a + ((p - a).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0) * along
         };
-        self.edges().map(to_edge).fold(reach, f64::min)
+        let nearer = |best: DVec2, at: DVec2| if at.distance_squared(p) < best.distance_squared(p) { at } else { best };
+        self.edges().map(on_edge).fold(DVec2::INFINITY, nearer)
+    }
+
+    /// How far a place is inside, metres, negative outside, and the way out; `None` farther than `reach` outside.
+    pub(crate) fn depth(&self, p: DVec2, reach: f64) -> Option<(f64, DVec2)> {
+        if !self.may_touch(p - reach, p + reach) {
+            return None;
+        }
+        let (inside, to_edge) = (self.contains(p), self.nearest(p) - p);
+        let distance = to_edge.length();
+        if !inside && distance > reach {
+            return None;
+        }
+        // On the edge itself there is no way to tell.
+        let way = to_edge.try_normalize().unwrap_or(DVec2::X);
+        Some(if inside { (distance, way) } else { (-distance, -way) })
     }
 
     fn edges(&self) -> impl Iterator<Item = (DVec2, DVec2)> {
@@ -90,6 +107,11 @@ mod tests {
         let u = [[0.0, 0.0], [6.0, 0.0], [6.0, 4.0], [4.0, 4.0], [4.0, 2.0], [2.0, 2.0], [2.0, 4.0], [0.0, 4.0]];
         let bay = Polygon::new("outline", &u.map(DVec2::from_array)).unwrap();
         assert!(!bay.contains(DVec2::new(3.0, 3.0)) && bay.contains(DVec2::new(1.0, 3.0)));
+        let (depth, way) = polygon.depth(DVec2::new(0.3, 2.0), 1.0).unwrap();
+        assert!((depth - 0.3).abs() < 1e-12 && way.distance(DVec2::NEG_X) < 1e-12);
+        let (depth, way) = polygon.depth(DVec2::new(1.5, 2.0), 1.0).unwrap();
+        assert!((depth + 0.5).abs() < 1e-12 && way.distance(DVec2::X) < 1e-12);
+        assert!(polygon.depth(DVec2::new(2.5, 3.0), 1.0).is_none() && polygon.depth(DVec2::NAN, 1.0).is_none());
         assert!(Polygon::new("outline", &l[..2]).is_err());
         assert!(Polygon::new("outline", &[DVec2::NAN; 3]).is_err());
     }

@@ -12,6 +12,8 @@ use super::{Baked, Terrain};
 pub(crate) struct Shore {
     /// Water level above the datum, metres.
     pub(crate) level: f32,
+    /// The level as bodies found it in the last tick.
+    pub(crate) found: f32,
     /// The land at the level for which the maps were made.
     pub(crate) terrain: Option<Terrain>,
     /// The maps as they are shown.
@@ -57,6 +59,11 @@ pub(crate) struct ShoreMark {
 impl Shore {
     pub(crate) fn mark(&self) -> ShoreMark {
         ShoreMark { level: self.level, revision: self.revision }
+    }
+
+    /// Whether the level is what it was in the last tick.
+    pub(crate) fn stands(&self) -> bool {
+        self.level == self.found
     }
 
     /// What grids read.

@@ -79,6 +79,11 @@ impl Terrain {
         self.level - self.bed().elevation(place)
     }
 
+    /// The outlines of the obstacles.
+    pub(super) fn walls(&self) -> impl Iterator<Item = &Polygon> {
+        self.parts.walls.iter().map(|(outline, _)| outline)
+    }
+
     fn wall(&self, place: DVec2) -> Option<ObstacleKind> {
         self.parts.walls.iter().find(|(outline, _)| outline.contains(place)).map(|(_, kind)| *kind)
     }
