@@ -3,7 +3,9 @@
 //! The hydrodynamics are `floating-body`'s. Here each body is given the water it sees, and what it displaced is handed
 //! to the grid it disturbs. Bodies do not see each other: collisions are the physics engine's.
 
-use floating_body::{Body, BodyState, Controls, Displacement, MooringLine, Radiation, TextureKernel, Textures, Wrench};
+use floating_body::{
+    Body, BodyState, Controls, Displacement, MooringLine, Radiation, Sampling, TextureKernel, Textures, Wrench,
+};
 use glam::{Quat, Vec2, Vec3};
 use rayon::prelude::*;
 use slotmap::SlotMap;
@@ -103,6 +105,14 @@ impl Entry {
     }
 }
 
+/// What bodies read of the sea.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Reads {
+    Samples,
+    /// Of bodies of this radius or larger, metres.
+    Patches(f32),
+}
+
 #[derive(Default)]
 pub(crate) struct Bodies {
     index: SlotMap<BodyId, usize>,
@@ -172,6 +182,16 @@ impl Bodies {
     /// Those that take part, in a fixed order.
     pub(crate) fn active(&self) -> impl Iterator<Item = (BodyId, &Body)> {
         self.list.iter().filter(|entry| entry.active).map(|entry| (entry.id, &entry.body))
+    }
+
+    /// What those that take part read of the sea: samples, or patches under bodies of this radius (metres) or larger.
+    pub(crate) fn reads(&self) -> Option<Reads> {
+        let patches = |entry: &Entry| entry.body.desc().sampling == Sampling::Patch;
+        let mut active = self.list.iter().filter(|entry| entry.active).peekable();
+        active.peek()?;
+        let radius =
+            |least: Option<f32>, entry: &Entry| patches(entry).then_some(least?.min(entry.body.bounding_radius()));
+        Some(active.fold(Some(f32::INFINITY), radius).map_or(Reads::Samples, Reads::Patches))
     }
 
     pub(crate) fn place_of(&self, id: BodyId) -> Option<Vec3> {

@@ -1,6 +1,6 @@
 //! What can be wrong with a description or a call.
 
-use crate::{BodyId, GridId, MooringId};
+use crate::{BodyId, FleetId, GridId, MooringId};
 
 /// Why the water refused a description or a call. Nothing is lost: the water stays as it was.
 #[derive(Debug, thiserror::Error)]
@@ -79,6 +79,9 @@ pub enum OpenWaterError {
     /// The handle's body was removed, or is another water's.
     #[error("body {0:?} does not exist (any more)")]
     UnknownBody(BodyId),
+    /// The handle's fleet was removed, or is another water's.
+    #[error("fleet {0:?} does not exist (any more)")]
+    UnknownFleet(FleetId),
     /// The handle's grid was removed, or is another water's.
     #[error("grid {0:?} does not exist (any more)")]
     UnknownGrid(GridId),

@@ -35,6 +35,7 @@ mod clock;
 mod cpu;
 mod desc;
 mod error;
+mod fleets;
 mod follow;
 #[cfg(feature = "gpu")]
 mod gpu;
@@ -64,13 +65,13 @@ pub use grids::MAX_GRIDS;
 pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shelter};
 pub use moorings::Mooring;
 pub use plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
-pub use store::{BodyId, BodyMotion, BodyStates, BodyStore, GridId, MooringId, Wants};
+pub use store::{BodyId, BodyMotion, BodyStates, BodyStore, FleetId, GridId, MooringId, Wants};
 pub use wakes::{Wake, WakesDesc};
 pub use water::{OpenWater, Reports};
 
 pub use floating_body::{
-    Body, BodyDesc, BodyState, Closure, Controls, Engine, Hull, HullKind, Inertia, MooringLine, Radiation,
-    RadiationTable, RadiationTables, TriMesh, Wrench,
+    Activity, Body, BodyDesc, BodyState, Closure, Contact, Controls, Engine, Fleet, FleetDesc, Hull, HullKind, Inertia,
+    MooringLine, PieceId, Radiation, RadiationTable, RadiationTables, TriMesh, Wrench,
 };
 pub use ocean_spectrum::{
     CascadeDesc, DirectionalTable, Ocean, OceanDesc, Partition, SeaState, Spectrum, Spreading, TableRow, Tail,

@@ -12,6 +12,8 @@ new_key_type! {
     pub struct BodyId;
     /// Handle of a grid; stays invalid for ever once the grid was removed.
     pub struct GridId;
+    /// Handle of a fleet; stays invalid for ever once the fleet was removed.
+    pub struct FleetId;
     /// Handle of a mooring; stays invalid for ever once the mooring or its body was removed.
     pub struct MooringId;
 }

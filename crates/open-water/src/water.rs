@@ -5,10 +5,11 @@ use glam::Vec2;
 use ocean_spectrum::{Ocean, Outputs};
 
 use crate::OpenWaterError;
-use crate::bodies::{Bodies, Pose};
+use crate::bodies::{Bodies, Pose, Reads};
 use crate::clock::{Clock, Tick, Ticks};
 use crate::cpu::surface::{Composite, WaterSample};
 use crate::desc::{OpenWaterDesc, check_wind};
+use crate::fleets::Fleets;
 use crate::follow::Look;
 use crate::grids::Grids;
 use crate::land::Shore;
@@ -41,6 +42,7 @@ pub struct OpenWater {
     pub(crate) ocean: Option<Ocean>,
     pub(crate) grids: Grids,
     pub(crate) bodies: Bodies,
+    pub(crate) fleets: Fleets,
     pub(crate) moorings: Moorings,
     pub(crate) reports: Reports,
     pub(crate) shore: Shore,
@@ -66,6 +68,7 @@ impl OpenWater {
             ocean,
             grids: Grids::default(),
             bodies: Bodies::default(),
+            fleets: Fleets::default(),
             moorings: Moorings::default(),
             reports: Reports::default(),
             shore: Shore::default(),
@@ -165,7 +168,7 @@ impl OpenWater {
         ticks
     }
 
-    /// Runs one tick: bodies feel the water and move, the water feels the bodies and moves. States are read from the
+    /// Runs one tick: bodies and fleets feel the water and move, the water feels them and moves. States are read from the
     /// store before and written after.
     ///
     /// # Errors
@@ -177,17 +180,18 @@ impl OpenWater {
         }
         let any = self.bodies.read(store, tick.dt, &mut self.reports);
         self.keep_wakes(tick.dt);
+        self.prepare_sea();
+        let water =
+            Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore, wind: self.desc.wind };
         if any {
-            if let Some(ocean) = &mut self.ocean {
-                // On all threads; the bodies' tasks would wait for whichever asks first.
-                ocean.prepare(Outputs::ALL);
-            }
-            let water =
-                Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore, wind: self.desc.wind };
             self.bodies.step(tick.dt, water);
+        }
+        self.fleets.step(tick.dt, self.looking.map(|look| look.eye), water);
+        if any {
             self.bodies.disturb(&mut self.grids);
             self.bodies.write(store);
         }
+        self.fleets.disturb(&mut self.grids);
         let bodies = &self.bodies;
         let start = self.tick as f64 * f64::from(tick.dt);
         self.grids.center(self.looking.as_ref(), self.shore.level, |id| bodies.place_of(id));
@@ -211,13 +215,24 @@ impl OpenWater {
         Ok(())
     }
 
+    /// Makes what bodies and fleets will read of the sea, on all threads; their tasks would wait for whichever asks first.
+    fn prepare_sea(&mut self) {
+        let Some(ocean) = &mut self.ocean else { return };
+        match (self.bodies.reads(), self.fleets.smallest()) {
+            (Some(Reads::Samples), _) => ocean.prepare(Outputs::ALL),
+            (Some(Reads::Patches(radius)), least) => ocean.prepare_patches(least.map_or(radius, |l| l.min(radius))),
+            (None, Some(radius)) => ocean.prepare_patches(radius),
+            (None, None) => {}
+        }
+    }
+
     /// The water at local positions (x, z) after the last tick, at once: as many answers as the shorter slice holds.
     /// The horizontal displacement is inverted, all grids are included. Calm water for points that are not finite.
     pub fn sample(&self, points: &[Vec2], out: &mut [WaterSample]) {
         self.composite().surface_at(points, out);
     }
 
-    fn composite(&self) -> Composite<'_> {
+    pub(crate) fn composite(&self) -> Composite<'_> {
         Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore, wind: self.desc.wind }
     }
 

@@ -284,3 +284,22 @@ fn what_cannot_be_fed_is_refused_and_nothing_is_lost() {
     water.remove_grid(id).unwrap();
     water.set_land(None).unwrap();
 }
+
+#[test]
+fn bodies_touch_the_bed_and_walls() {
+    let mut water = OpenWater::headless(calm()).unwrap();
+    water.set_land(Some(harbour())).unwrap();
+    let cube = Hull::cuboid(Vec3::ONE).unwrap();
+    let mut store = BodyStates::default();
+    // Too heavy to float, over 10 m of water; and one that is pushed towards the breakwater.
+    let sunk = water.add_body(BodyDesc::from_hull(&cube, 2000.0)).unwrap();
+    store.insert(sunk, BodyState::at_rest(Vec3::new(60.0, -8.0, 100.0)));
+    let pushed = water.add_body(BodyDesc::from_hull(&cube, 500.0)).unwrap();
+    store.insert(pushed, BodyState::at_rest(Vec3::new(178.0, 0.0, 60.0)));
+    let force = Vec3::X * 400.0;
+    water.set_controls(pushed, open_water::Controls { force, ..Default::default() }).unwrap();
+    run(&mut water, &mut store, 10.0, |_| {});
+    let [sunk, pushed] = [sunk, pushed].map(|id| store.get(id).unwrap().position);
+    assert!((sunk.y + 9.5).abs() < 0.05, "{sunk}");
+    assert!((pushed.x - 179.5).abs() < 0.05 && pushed.y.abs() < 0.2, "{pushed}");
+}

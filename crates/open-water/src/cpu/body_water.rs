@@ -185,3 +185,70 @@ impl WaterSurface for FleetWater<'_> {
         if self.water.grids.iter().any(|grid| self.is_own(grid)) { Home::Shared } else { Home::None }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{GridDesc, OpenWater, Preset};
+
+    fn calm(water: &OpenWater, low: [f32; 2], high: [f32; 2]) -> bool {
+        FleetWater { water: water.composite(), by_grid: false }.is_calm(low.into(), high.into())
+    }
+
+    fn tick(water: &mut OpenWater) {
+        for tick in water.advance(1.0 / 60.0) {
+            water.tick(tick, &mut crate::BodyStates::default()).unwrap();
+        }
+    }
+
+    #[test]
+    fn calm_is_where_nothing_moves() {
+        let mut desc = Preset::Low.water();
+        assert!(!calm(&OpenWater::headless(desc.clone()).unwrap(), [0.0; 2], [1.0; 2]));
+        desc.sea.partitions.clear();
+        let mut water = OpenWater::headless(desc).unwrap();
+        // 96 m a side around the origin.
+        let id = water.add_grid(GridDesc { ..Preset::Low.grid() }).unwrap();
+        tick(&mut water);
+        let (low, high) = ([-20.0, -20.0], [20.0, 20.0]);
+        assert!(calm(&water, low, high));
+        let source = wave_grid::Source::Displacement { center: Vec2::new(14.0, 3.0), radius: 2.0, volume: 20.0 };
+        water.grids.get_mut(id).unwrap().add(source);
+        tick(&mut water);
+        assert!(!calm(&water, low, high) && !calm(&water, [13.0, 2.0], [14.0, 3.0]));
+        assert!(calm(&water, [-20.0, -20.0], [-12.0, 20.0]) && calm(&water, [60.0, 0.0], [70.0, 9.0]));
+        // The waves get there.
+        (0..480).for_each(|_| tick(&mut water));
+        assert!(!calm(&water, [-20.0, -20.0], [-12.0, 20.0]));
+        assert!(calm(&water, [60.0, 0.0], [70.0, 9.0]));
+        water.set_level(0.5).unwrap();
+        assert!(!calm(&water, [60.0, 0.0], [70.0, 9.0]));
+        tick(&mut water);
+        assert!(calm(&water, [60.0, 0.0], [70.0, 9.0]));
+    }
+
+    #[test]
+    fn patches_are_those_of_one_after_the_other() {
+        let mut water = OpenWater::headless(Preset::Low.water()).unwrap();
+        let id = water.add_grid(GridDesc { ..Preset::Low.grid() }).unwrap();
+        let source = wave_grid::Source::Displacement { center: Vec2::ZERO, radius: 3.0, volume: 9.0 };
+        water.grids.get_mut(id).unwrap().add(source);
+        (0..60).for_each(|_| tick(&mut water));
+        let centers: Vec<Vec2> = (0..100).map(|i| Vec2::from_angle(i as f32) * (0.6 * i as f32)).collect();
+        for by_grid in [false, true] {
+            let fleet = FleetWater { water: water.composite(), by_grid };
+            let mut all = vec![SurfacePatch::default(); 100];
+            fleet.patches(&centers, 0.6, &mut all);
+            for (center, patch) in centers.iter().zip(&all) {
+                assert_eq!(fleet.patch(*center, 0.6), *patch);
+            }
+            // What the grid adds is felt either way, and is own where they make waves.
+            let own = all.iter().any(|patch| patch.own != 0.0);
+            assert!(own == by_grid && (fleet.home() == Home::Shared) == by_grid);
+            let mut samples = [crate::WaterSample::default()];
+            water.composite().surface_at(&centers[7..8], &mut samples);
+            let patch = fleet.patch(centers[7], 0.0);
+            assert!((samples[0].height - patch.height - patch.own).abs() < 2e-3);
+        }
+    }
+}
