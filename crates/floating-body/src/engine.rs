@@ -73,14 +73,16 @@ impl Engine {
     /// Force in N on the hull (hull axes) for speed `ahead` m/s through the water.
     ///
     /// Thrust falls linearly with the speed of advance, as a propeller's open-water curve does; the rudder is a thin
-    /// foil of aspect ratio about 2: lift slope 3 per radian on the flow past it.
-    pub(crate) fn force(&self, controls: &Controls, ahead: f32, depth: f32, density: f32) -> Vec3 {
+    /// foil of aspect ratio about 2: lift slope 3 per radian on the flow past it. Its lift is at most `most`, N: what a step
+    /// resolves.
+    pub(crate) fn force(&self, controls: &Controls, ahead: f32, depth: f32, density: f32, most: f32) -> Vec3 {
         let throttle = controls.throttle;
         let full = if throttle < 0.0 { self.bollard_thrust * self.astern } else { self.bollard_thrust };
         let slip = (1.0 - ahead * throttle.signum() / self.pitch_speed).clamp(0.0, 1.5);
         let thrust = full * throttle * slip;
         let angle = controls.steering * self.max_angle;
         let lift = 0.5 * density * self.rudder_area * 3.0 * angle * ahead * ahead.abs();
+        let lift = lift.clamp(-most, most);
         let force = Vec3::new(thrust * libm::cosf(angle), 0.0, -thrust * libm::sinf(angle) - lift);
         force * self.immersion(depth)
     }

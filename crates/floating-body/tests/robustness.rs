@@ -158,3 +158,57 @@ fn bad_descriptions_are_refused_by_field_value_and_bound() {
     let text = Hull::cuboid(Vec3::new(1.0, -2.0, 1.0)).unwrap_err().to_string();
     assert_eq!(text, "size is -2; it must be in [0.001, 1000] m");
 }
+
+#[test]
+fn what_falls_falls_freely_however_stiff_it_is() {
+    // Afloat it would swing far faster than its sub-steps resolve.
+    let hull = hull(0, 0.1);
+    let mut body = Body::new(BodyDesc::from_hull(&hull, 0.015 * 1025.0 * hull.volume())).unwrap();
+    let mut state = BodyState::at_rest(Vec3::new(0.0, 3.0, 0.0));
+    state.velocity.y = 30.0;
+    body.set_state(state);
+    for _ in 0..10 {
+        body.step(0.4, &FlatWater::default(), &Controls::default());
+    }
+    let (s, fallen) = (body.state(), 3.0 + 30.0 * 4.0 - 0.5 * 9.81 * 16.0);
+    assert!((s.velocity.y - (30.0 - 9.81 * 4.0)).abs() < 1e-2 && (s.position.y - fallen).abs() < 0.5, "{s:?}");
+}
+
+#[test]
+fn an_impact_on_the_side_turns_a_hull_with_less_than_it_takes() {
+    let hull = hull(0, 2.0);
+    let mut desc = BodyDesc::from_hull(&hull, 0.5 * 1025.0 * hull.volume());
+    // All sideways, far from the centre of mass.
+    desc.drag.quadratic.z = 1.0e8;
+    desc.drag.angular_linear = Vec3::ZERO;
+    desc.drag.angular_quadratic = Vec3::ZERO;
+    desc.drag.angular_forward = Vec3::ZERO;
+    desc.drag.lateral_center = desc.center_of_mass + Vec3::X * 3.0;
+    let mut body = Body::new(desc).unwrap();
+    let mut state = body.state();
+    state.velocity.z = 40.0;
+    body.set_state(state);
+    body.step(1.0 / 60.0, &FlatWater::default(), &Controls::default());
+    let spin = body.state().angular_velocity;
+    let whole = body.desc().mass + body.desc().coefficients.added_mass.z;
+    let turning = 0.5 * spin.dot(body.inertia() * spin);
+    assert!(turning < 0.25 * 0.5 * whole * 1600.0 && spin.y.abs() > 1.0, "{turning} J, {spin}");
+}
+
+#[test]
+fn a_rudder_turns_no_boat_by_more_than_the_flow_has() {
+    let hull = hull(0, 0.3);
+    let mut desc = BodyDesc::boat(&hull, 0.5 * 1025.0 * hull.volume(), 10.0);
+    if let Some(engine) = &mut desc.engine {
+        engine.rudder_area = 1.0;
+    }
+    let mut body = Body::new(desc).unwrap();
+    let mut state = body.state();
+    state.velocity.x = 50.0;
+    body.set_state(state);
+    let controls = Controls { steering: 1.0, ..Controls::default() };
+    for _ in 0..60 {
+        body.step(1.0 / 60.0, &FlatWater::default(), &controls);
+        assert!(body.state().velocity.length() < 50.0, "{:?}", body.state());
+    }
+}

@@ -89,27 +89,27 @@ impl Body {
         let desc = &self.desc;
         let velocity = to_axes * self.state.velocity;
 
-        let (engine_force, engine_torque) = self.engine(&pose, velocity - water, controls);
+        let (engine_force, engine_torque) = self.engine(&pose, velocity - water, controls, dt);
         let drive = to_axes
             * (wet.force + Vec3::Y * push.x + gravity(desc.mass) + controls.force + pose.rotation * engine_force)
             + added * (to_axes * Vec3::new(0.0, wet.acceleration, 0.0));
-        // What the sub-steps cannot resolve is held back as an implicit step would.
-        let held = 1.0 + (self.stiffness.x * dt * dt - FINEST * FINEST).max(0.0);
-        let pushed = velocity + drive / (whole * held) * dt - water;
+        // What the sub-steps cannot resolve is held back as an implicit step would. Nothing holds what falls.
+        let stiff = |k: f32| 1.0 + (k * dt * dt - FINEST * FINEST).max(0.0);
+        let held = if wet.volume > 0.0 { [stiff(self.stiffness.x), stiff(self.stiffness.y)] } else { [1.0; 2] };
+        let pushed = velocity + drive / (whole * held[0]) * dt - water;
         // A bottom that is wet is wet, however deep; sides are wet as far as they are immersed.
         let sides = Vec3::new(share, share.min(1.0), share);
         let linear = desc.drag.linear * share + coefficients.damping * (share * radiating);
         let slowed = implicit(pushed, linear, desc.drag.quadratic_rates(pushed) * sides, whole, dt);
-        let sideways = whole.z * (slowed.z - pushed.z) / dt;
+        let lateral = desc.drag.lateral_center - desc.center_of_mass;
+        let sideways = sideways(slowed.z, pushed.z, whole.z, lateral, &inertia) / dt;
         self.state.velocity = axes * (slowed + water);
 
-        let lateral = desc.drag.lateral_center - desc.center_of_mass;
         let torque = to_body * (wet.torque + controls.torque)
             + self.texture_torque(push)
             + engine_torque
             + lateral.cross(to_body * axes.z_axis * sideways);
-        let held = 1.0 + (self.stiffness.y * dt * dt - FINEST * FINEST).max(0.0);
-        let turning = start * self.state.angular_velocity + mobility.inverse * torque * (dt / held);
+        let turning = start * self.state.angular_velocity + mobility.inverse * torque * (dt / held[1]);
         let spin = turning - wet.spin;
         let linear = (desc.drag.angular_linear + desc.drag.angular_forward * slowed.length()) * share
             + coefficients.angular_damping * (share * radiating);
@@ -131,14 +131,17 @@ impl Body {
     }
 
     /// Thrust and rudder in hull axes, and their torque about the centre of mass.
-    fn engine(&self, pose: &Pose, through_water: Vec3, controls: &Controls) -> (Vec3, Vec3) {
+    fn engine(&self, pose: &Pose, through_water: Vec3, controls: &Controls, dt: f32) -> (Vec3, Vec3) {
         let (Some(engine), Some(water)) = (&self.desc.engine, self.waters.last()) else {
             return (Vec3::ZERO, Vec3::ZERO);
         };
         let arm = engine.position - self.desc.center_of_mass;
         let at = pose.position + pose.rotation * arm;
         let depth = water.ambient(Vec2::new(at.x, at.z)) - at.y;
-        let force = engine.force(controls, through_water.x, depth, self.desc.water_density);
+        // No lift turns the flow by more than half a radian in a step.
+        let yields = 1.0 / self.desc.mass + arm.x * arm.x / self.inertia.y_axis.y;
+        let most = 0.5 * through_water.x.abs() / (yields * dt);
+        let force = engine.force(controls, through_water.x, depth, self.desc.water_density, most);
         (force, arm.cross(force))
     }
 
@@ -162,4 +165,12 @@ impl Body {
         }
         self.measure_textures(&pose, age, restart);
     }
+}
+
+/// Impulse that turns a hull whose sideways speed `from` was slowed `to`, N s, at the `lateral` centre. As far as that
+/// centre yields to it, it is less than what stops the hull: an impact turns it with less energy than it takes.
+fn sideways(to: f32, from: f32, mass: f32, lateral: Vec3, inertia: &Mat3) -> f32 {
+    let lever = lateral.x * lateral.x / inertia.y_axis.y + lateral.y * lateral.y / inertia.x_axis.x;
+    let stopped = if from == 0.0 { 0.0 } else { (1.0 - to / from).clamp(0.0, 1.0) };
+    mass * (to - from) / (1.0 + stopped * mass * lever)
 }

@@ -45,23 +45,29 @@ pub(super) fn substep<S: Simd>(
     let heaved = axes.back(V3::new(zero, surface.acceleration * felt, zero));
     let drive = axes.back(V3::new(wet.force.x, wet.force.y - weight, wet.force.z)) + added * heaved;
     let eased = V3::new(one, one, one).over(whole);
-    let pushed = velocity + (drive * eased).scale(f32x8::splat(simd, dt / pace.held[0])) - water;
+    // Nothing holds what falls.
+    let (dry, whole_step) = (wet.volume.simd_le(zero), f32x8::splat(simd, dt));
+    let paced = dry.select(whole_step, f32x8::splat(simd, dt / pace.held[0]));
+    let pushed = velocity + (drive * eased).scale(paced) - water;
     let radiating = share * ((f32x8::splat(simd, template.points) - wet.volume) * template.sheds).max(zero).min(one);
     let linear =
         V3::all(simd, template.drag.linear).scale(share) + V3::all(simd, coefficients.damping).scale(radiating);
     let rates = drag_rates(simd, template, pushed) * V3::new(share, share.min(one), share);
     let slowed = implicit(simd, pushed, linear * eased, rates * eased, dt);
-    let sideways = whole.z * (slowed.z - pushed.z) * (1.0 / dt);
     motion.velocity = axes.times(slowed + water);
 
     let lateral = V3::all(simd, template.lateral);
-    let torque = wet.torque + lateral.cross(rotation.back(axes.z.scale(sideways)));
     let more = V3::all(simd, coefficients.added_inertia).scale(share);
     let inertia = columns(simd, template.inertia, more);
     let moments = V3::new(inertia.x.x, inertia.y.y, inertia.z.z);
+    let stopped = whole.z * stopped_share(simd, slowed.z, pushed.z);
     let eased = V3::new(one, one, one).over(moments);
+    let lever = lateral.x * lateral.x * eased.y + lateral.y * lateral.y * eased.x;
+    let sideways = whole.z * (slowed.z - pushed.z) * (1.0 / dt) / (stopped * lever + 1.0);
+    let torque = wet.torque + lateral.cross(rotation.back(axes.z.scale(sideways)));
     let twist = if template.turning == Turning::Full { inertia.solve(simd, torque) } else { torque * eased };
-    let turning = rotation.back(motion.spin) + twist.scale(f32x8::splat(simd, dt / pace.held[1]));
+    let paced = dry.select(whole_step, f32x8::splat(simd, dt / pace.held[1]));
+    let turning = rotation.back(motion.spin) + twist.scale(paced);
     let speed = slowed.dot(slowed).sqrt();
     let drag = &template.drag;
     let spinning = V3::new(turning.x.abs(), turning.y.abs(), turning.z.abs());
@@ -78,6 +84,14 @@ pub(super) fn substep<S: Simd>(
     motion.spin = motion.turn.matrix().times(turning);
     motion.position = motion.position + motion.velocity.scale(f32x8::splat(simd, dt));
     wet.volume
+}
+
+/// Share of a speed that was stopped, 0 to 1.
+#[inline(always)]
+fn stopped_share<S: Simd>(simd: S, to: Num<S>, from: Num<S>) -> Num<S> {
+    let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+    let still = from.simd_eq(zero);
+    still.select(zero, (one - to / still.select(one, from)).max(zero).min(one))
 }
 
 /// See [`implicit`](crate::drag::implicit); `linear` and `rates` over the mass, 1/s.
