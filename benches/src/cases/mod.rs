@@ -12,6 +12,10 @@ mod energy;
 mod facade;
 mod facade_grids;
 mod fleet_gpu;
+mod fleet_idle;
+mod fleet_inertia;
+mod fleet_kernel;
+mod fleet_water;
 mod grid_border;
 mod grid_current;
 mod grid_edges;
@@ -110,7 +114,15 @@ pub const CASES: &[Case] = &[
     grid_medium::COST,
     body_float::DRAFT,
     body_float::TICK,
+    fleet_kernel::KERNEL,
+    fleet_inertia::ERROR,
+    fleet_inertia::TIME,
+    fleet_inertia::TUMBLE,
     fleet_gpu::FLEET,
+    fleet_water::AGAINST_BODY,
+    fleet_water::REFRESH,
+    fleet_idle::ASLEEP,
+    fleet_idle::RIDING,
     heave_decay::HEAVE,
     sinkage::SINKAGE,
     rapier::DRAFT,
