@@ -4,7 +4,7 @@
 use std::hint::black_box;
 
 use floating_body::{
-    AiryWave, Body, BodyDesc, BodyState, Controls, Fleet, Hull, Sampling, SurfacePatch, SurfaceSample, WATER_DENSITY,
+    AiryWave, Body, BodyDesc, BodyState, Controls, Hull, Sampling, SurfacePatch, SurfaceSample, WATER_DENSITY,
     WaterSurface,
 };
 use glam::{Quat, Vec2, Vec3};
@@ -154,15 +154,12 @@ fn refresh(context: &Context) -> Result<Vec<Row>, CaseError> {
     let spots: Vec<_> = (0..48).map(|i| start(i, 0.1)).collect();
     let many = states(context.pick(2_000, 10_000));
     let one = pool(1)?;
-    let mut fleets = [1, 2, 4, 8, 16].map(|refresh| fleet(&desc, refresh, &spots));
-    let mut heavy = Vec::new();
+    let (mut fleets, mut heavy) = (Vec::new(), Vec::new());
     for refresh in [1, 2, 4, 8, 16] {
+        fleets.push(fleet(&desc, refresh, &spots)?);
         heavy.push(fleet(&desc, refresh, &many)?);
     }
     let (mut place, mut tilt, mut waves) = ([0.0f64; 5], [0.0f64; 5], 0.0);
-    let fleets: Vec<&mut Fleet> =
-        fleets.iter_mut().map(|f| f.as_mut().map_err(|e| e.to_string())).collect::<Result<_, _>>()?;
-    let mut fleets = fleets;
     for tick in 0..ticks {
         let water = sea.clone().at(f64::from(tick) * f64::from(DT));
         fleets.iter_mut().for_each(|fleet| fleet.step(DT, &water));

@@ -27,27 +27,52 @@ const STEEPEST: f32 = 1.0;
 const FASTEST: f32 = 50.0;
 
 impl LocalWater {
-    /// Sampled numbers, made harmless: NaN becomes calm water. The wave is averaged over a disc with the square of a
-    /// radius `footprint`, m^2.
+    /// A sample, made harmless, the wave averaged over a disc with the square of a radius `footprint`, m^2.
     fn new(at: Vec2, s: &SurfaceSample, footprint: f32) -> Self {
-        let finite = s.height.is_finite() && s.level.is_finite() && s.own.is_finite() && s.velocity.is_finite();
-        if !(finite && s.normal.is_finite() && s.acceleration.is_finite() && s.decay_wavenumber.is_finite()) {
+        let patch = SurfacePatch {
+            height: s.height,
+            own: s.own,
+            gradient: Vec2::new(-s.normal.x, -s.normal.z) / s.normal.y.max(0.1),
+            own_gradient: Vec2::ZERO,
+            velocity: s.velocity,
+            acceleration: s.acceleration,
+            decay_wavenumber: s.decay_wavenumber,
+            level: s.level,
+        };
+        let w = Self::plane(at, &patch);
+        let mean = mean_over_disc(w.decay * w.decay * footprint);
+        Self {
+            height: w.level + (w.height - w.level) * mean,
+            slope: w.slope * mean,
+            // A current flows level and is no wave.
+            velocity: Vec3::new(w.velocity.x, w.velocity.y * mean, w.velocity.z),
+            acceleration: w.acceleration * mean,
+            ..w
+        }
+    }
+
+    /// A patch, made harmless: what is not finite becomes calm water.
+    fn plane(at: Vec2, p: &SurfacePatch) -> Self {
+        let slope = p.gradient + p.own_gradient;
+        // A number times 0 is 0 unless it is none.
+        let none = (p.height + p.level + p.own + p.acceleration + p.decay_wavenumber) * 0.0
+            + (slope.element_sum() + p.velocity.element_sum()) * 0.0;
+        if none.is_nan() {
             return Self { at, ..Self::default() };
         }
-        let slope = Vec2::new(-s.normal.x, -s.normal.z) / s.normal.y.max(0.1);
-        let (decay, level) = (s.decay_wavenumber.clamp(0.0, 100.0), s.level.clamp(-1.0e4, 1.0e4));
-        let mean = mean_over_disc(decay * decay * footprint);
-        let velocity = s.velocity.clamp_length_max(FASTEST);
         Self {
             at,
-            height: level + (s.height.clamp(-1.0e4, 1.0e4) - level) * mean,
-            own: s.own.clamp(-100.0, 100.0),
-            slope: slope.clamp_length_max(STEEPEST) * mean,
-            // A current flows level and is no wave.
-            velocity: Vec3::new(velocity.x, velocity.y * mean, velocity.z),
-            acceleration: s.acceleration.clamp(-0.9 * GRAVITY, 3.0 * GRAVITY) * mean,
-            decay,
-            level,
+            height: p.height.clamp(-1.0e4, 1.0e4),
+            own: p.own.clamp(-100.0, 100.0),
+            slope: shortened(slope),
+            velocity: if p.velocity.length_squared() > FASTEST * FASTEST {
+                p.velocity.clamp_length_max(FASTEST)
+            } else {
+                p.velocity
+            },
+            acceleration: p.acceleration.clamp(-0.9 * GRAVITY, 3.0 * GRAVITY),
+            decay: p.decay_wavenumber.clamp(0.0, 100.0),
+            level: p.level.clamp(-1.0e4, 1.0e4),
         }
     }
 
@@ -83,19 +108,20 @@ pub(crate) fn read_points(
     }
 }
 
+/// The slope, if it is not too steep.
+fn shortened(slope: Vec2) -> Vec2 {
+    if slope.length_squared() > STEEPEST * STEEPEST { slope.clamp_length_max(STEEPEST) } else { slope }
+}
+
 /// The plane of a patch read about `center`, and the slope of its height without the home grid's waves.
-pub(crate) fn read_plane(center: Vec2, patch: SurfacePatch) -> (LocalWater, Vec2) {
-    let SurfacePatch { height, gradient, own, own_gradient, velocity, acceleration, decay_wavenumber, level } = patch;
-    let slope = gradient + own_gradient;
-    let normal = Vec3::new(-slope.x, 1.0, -slope.y).normalize_or(Vec3::Y);
-    let sample = SurfaceSample { height, own, normal, velocity, acceleration, decay_wavenumber, level };
-    let gradient = if gradient.is_finite() { gradient.clamp_length_max(STEEPEST) } else { Vec2::ZERO };
-    (LocalWater::new(center, &sample, 0.0), gradient)
+pub(crate) fn read_plane(center: Vec2, patch: &SurfacePatch) -> (LocalWater, Vec2) {
+    let gradient = if patch.gradient.is_finite() { shortened(patch.gradient) } else { Vec2::ZERO };
+    (LocalWater::plane(center, patch), gradient)
 }
 
 /// Fills `out` from one patch about `center`.
 pub(crate) fn read_patch(water: &dyn WaterSurface, center: Vec2, radius: f32, at: &[Vec2], out: &mut [LocalWater]) {
-    let (plane, gradient) = read_plane(center, water.patch(center, radius));
+    let (plane, gradient) = read_plane(center, &water.patch(center, radius));
     for (p, o) in at.iter().zip(out) {
         let away = *p - center;
         let height = plane.height + gradient.dot(away);

@@ -2,13 +2,16 @@
 
 use glam::{Mat3, Quat, Vec3};
 
-/// The rotation matrix of a unit quaternion, body to world.
+/// The rotation matrix of a quaternion that is a unit one but for rounding, body to world. That is taken out: left in, it
+/// would add up to a percent of the energy of a body that tumbles for 100,000 steps.
 pub(crate) fn matrix(q: Quat) -> Mat3 {
     let (x, y, z, w) = (q.x, q.y, q.z, q.w);
+    let two = 4.0 - 2.0 * (x * x + y * y + z * z + w * w);
+    let (x2, y2, z2) = (x * two, y * two, z * two);
     Mat3::from_cols(
-        Vec3::new(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)),
-        Vec3::new(2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)),
-        Vec3::new(2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)),
+        Vec3::new(1.0 - (y * y2 + z * z2), x * y2 + w * z2, x * z2 - w * y2),
+        Vec3::new(x * y2 - w * z2, 1.0 - (x * x2 + z * z2), y * z2 + w * x2),
+        Vec3::new(x * z2 + w * y2, y * z2 - w * x2, 1.0 - (x * x2 + y * y2)),
     )
 }
 

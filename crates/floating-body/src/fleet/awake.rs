@@ -83,7 +83,7 @@ fn read(tick: &Tick, packs: &mut [Pack], first: usize, count: usize) {
         }
         pack.fresh = false;
         for lane in 0..LANES.min(count - i * LANES) {
-            let (water, ambient) = read_plane(centers[n], patches[n]);
+            let (water, ambient) = read_plane(centers[n], &patches[n]);
             pack.set_plane(lane, &Plane { water, ambient, age: 0.0 });
             n += 1;
         }

@@ -170,11 +170,12 @@ impl<S: Simd> Turn<S> {
         self.w.store_slice(&mut rows[3]);
     }
 
-    /// Body to world.
+    /// Body to world: see [`matrix`](crate::rotation::matrix).
     #[inline(always)]
     pub(super) fn matrix(&self) -> M3<S> {
         let V3 { x, y, z } = self.v;
-        let (x2, y2, z2, w2) = (x + x, y + y, z + z, self.w + self.w);
+        let two = -((self.v.dot(self.v) + self.w * self.w) * 2.0) + 4.0;
+        let (x2, y2, z2, w2) = (x * two, y * two, z * two, self.w * two);
         let (xx, yy, zz) = (x * x2, y * y2, z * z2);
         let (xy, xz, yz) = (x * y2, x * z2, y * z2);
         let (wx, wy, wz) = (w2 * x, w2 * y, w2 * z);

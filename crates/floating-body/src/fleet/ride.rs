@@ -117,7 +117,7 @@ impl Rider {
         let was = (height + self.excess.0 * left, slope + self.excess.1 * left);
         let flow = self.plane.water.velocity;
         self.spot += Vec2::new(flow.x, flow.z) * age;
-        let (water, ambient) = read_plane(self.spot, patch);
+        let (water, ambient) = read_plane(self.spot, &patch);
         self.plane = Plane { water, ambient, age: 0.0 };
         self.since = now;
         self.excess = (was.0 - swing(&self.plane, felt, 0.0).0, was.1 - water.slope);

@@ -68,7 +68,7 @@ impl Block {
         }
         water.patches(&centers[..n], footprint, &mut patches[..n]);
         due().zip(&centers).zip(&patches).any(|((piece, center), patch)| {
-            let (now, then) = (read_plane(*center, *patch).0, &piece.plane.water);
+            let (now, then) = (read_plane(*center, patch).0, &piece.plane.water);
             (now.height + now.own - then.height - then.own).abs() > MOVED.0
                 || now.slope.distance(then.slope) > MOVED.1
                 || now.velocity.length() > MOVED.2
