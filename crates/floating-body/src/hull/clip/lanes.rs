@@ -136,14 +136,18 @@ fn sweep<S: Simd, D: Depths>(simd: S, blocks: &[Block], depths: &D, fade: Option
         let positive = [d[0].max(zero), d[1].max(zero), d[2].max(zero)];
         let q = match &fade {
             None => positive,
-            Some(fade) => [0, 1, 2].map(|k| faded(simd, fade, r[k], d[k], positive[k])),
+            Some(fade) => [
+                faded(simd, fade, r[0], d[0], positive[0]),
+                faded(simd, fade, r[1], d[1], positive[1]),
+                faded(simd, fade, r[2], d[2], positive[2]),
+            ],
         };
         let area = load(simd, &block.area);
         let mut piece = whole(r, positive, q);
         if cut.any_true() {
             let through = part(simd, r, d, q);
-            for (own, cut_piece) in piece.iter_mut().zip(through) {
-                *own = cut.select(cut_piece, *own);
+            for (own, through) in piece.iter_mut().zip(through) {
+                *own = cut.select(through, *own);
             }
         }
         let [head, x, y, z, depth] = piece;
@@ -178,32 +182,46 @@ fn faded<S: Simd>(simd: S, fade: &Fade, r: Three<S>, d: f32x8<S>, positive: f32x
 }
 
 /// Integrals over a triangle per area: of the head, of the head times `r`, of the depth. Dry triangles give zeros.
+// No closures here: they are not inlined for certain into what the vectors need.
 #[inline(always)]
 fn whole<S: Simd>(r: [Three<S>; 3], d: Three<S>, q: Three<S>) -> [f32x8<S>; 5] {
+    let (third, twelfth) = (1.0 / 3.0, 1.0 / 12.0);
     let sum = q[0] + q[1] + q[2];
-    let arm = |axis: usize| {
+    let mut out = [sum * third; 5];
+    for axis in 0..3 {
         let (a, b, c) = (r[0][axis], r[1][axis], r[2][axis]);
-        (sum * (a + b + c) + (q[0] * a + q[1] * b + q[2] * c)) * (1.0 / 12.0)
-    };
-    let third = 1.0 / 3.0;
-    [sum * third, arm(0), arm(1), arm(2), (d[0] + d[1] + d[2]) * third]
+        out[1 + axis] = (sum * (a + b + c) + (q[0] * a + q[1] * b + q[2] * c)) * twelfth;
+    }
+    out[4] = (d[0] + d[1] + d[2]) * third;
+    out
 }
 
-/// The same for triangles that the surface cuts: corner 0 is made the one that is alone on its side.
+/// Which corner is alone on its side of the surface: the first, the second, or neither.
+#[derive(Clone, Copy)]
+struct Lone<S: Simd> {
+    first: mask32x8<S>,
+    second: mask32x8<S>,
+}
+
+impl<S: Simd> Lone<S> {
+    /// The corners turned so that the one alone comes first.
+    #[inline(always)]
+    fn turned(self, a: f32x8<S>, b: f32x8<S>, c: f32x8<S>) -> Three<S> {
+        [
+            self.first.select(a, self.second.select(b, c)),
+            self.first.select(b, self.second.select(c, a)),
+            self.first.select(c, self.second.select(a, b)),
+        ]
+    }
+}
+
+/// The same for triangles that the surface cuts.
 #[inline(always)]
 fn part<S: Simd>(simd: S, r: [Three<S>; 3], d: Three<S>, q: Three<S>) -> [f32x8<S>; 5] {
     let zero = f32x8::splat(simd, 0.0);
-    let wet = d.map(|d| d.simd_gt(zero));
-    let alike = |a: mask32x8<S>, b: mask32x8<S>| !(a ^ b);
-    let (first, second) = (alike(wet[1], wet[2]), alike(wet[0], wet[2]));
-    let turned = |v: Three<S>| {
-        [
-            first.select(v[0], second.select(v[1], v[2])),
-            first.select(v[1], second.select(v[2], v[0])),
-            first.select(v[2], second.select(v[0], v[1])),
-        ]
-    };
-    let (d, q) = (turned(d), turned(q));
+    let wet = [d[0].simd_gt(zero), d[1].simd_gt(zero), d[2].simd_gt(zero)];
+    let lone = Lone { first: !(wet[1] ^ wet[2]), second: !(wet[0] ^ wet[2]) };
+    let (d, q) = (lone.turned(d[0], d[1], d[2]), lone.turned(q[0], q[1], q[2]));
     let one = f32x8::splat(simd, 1.0);
     let (t1, t2) = (d[0] / (d[0] - d[1]), d[0] / (d[0] - d[2]));
     let above = d[0].simd_gt(zero);
@@ -212,16 +230,16 @@ fn part<S: Simd>(simd: S, r: [Three<S>; 3], d: Three<S>, q: Three<S>) -> [f32x8<
     let small = t1 * t2;
     let (large, rest) = (one - t2, t2 * (one - t1));
     let both = q[1] + q[2];
-    let head = above.select(small * q[0], large * both + rest * q[1]) * (1.0 / 3.0);
-    let depth = above.select(small * d[0], large * (d[1] + d[2]) + rest * d[1]) * (1.0 / 3.0);
-    let tip = small * q[0];
-    let (wide, narrow) = (large * both, rest * q[1]);
-    let arm = |axis: usize| {
-        let v = turned([r[0][axis], r[1][axis], r[2][axis]]);
+    let (tip, wide, narrow) = (small * q[0], large * both, rest * q[1]);
+    let (third, twelfth) = (1.0 / 3.0, 1.0 / 12.0);
+    let mut out = [above.select(tip, wide + narrow) * third; 5];
+    for axis in 0..3 {
+        let v = lone.turned(r[0][axis], r[1][axis], r[2][axis]);
         let (a, b) = (v[0] + (v[1] - v[0]) * t1, v[0] + (v[2] - v[0]) * t2);
         let wet = tip * (v[0] + v[0] + a + b);
         let dry = wide * (v[1] + v[2] + b) + large * (q[1] * v[1] + q[2] * v[2]) + narrow * (v[1] + v[1] + a + b);
-        above.select(wet, dry) * (1.0 / 12.0)
-    };
-    [head, arm(0), arm(1), arm(2), depth]
+        out[1 + axis] = above.select(wet, dry) * twelfth;
+    }
+    out[4] = above.select(small * d[0], large * (d[1] + d[2]) + rest * d[1]) * third;
+    out
 }
