@@ -6,13 +6,14 @@
 pub(crate) mod clip;
 mod columns;
 mod convex;
+mod quadrature;
 pub(crate) mod shapes;
 mod solid;
 mod spans;
 mod topology;
 mod waterline;
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::{DVec3, Mat3, Vec3};
 
@@ -84,7 +85,14 @@ struct Inner {
     made: Made,
     solid: Solid,
     spans: Vec<Span>,
+    /// Points of meshes by count and bits of the displaced volume.
+    fitted: Mutex<Vec<Fitted>>,
 }
+
+type Fitted = ((u32, u32), Vec<ForcePoint>);
+
+/// Sets of force points that a mesh keeps.
+const FITS_KEPT: usize = 8;
 
 #[derive(Debug)]
 enum Made {
@@ -111,7 +119,7 @@ impl Hull {
             vertices: surface.vertices.iter().map(|v| v.as_vec3()).collect(),
             indices: surface.triangles.iter().flatten().copied().collect(),
         };
-        Ok(Self(Arc::new(Inner { made: Made::Mesh(mesh), solid, spans })))
+        Ok(Self(Arc::new(Inner { made: Made::Mesh(mesh), solid, spans, fitted: Mutex::default() })))
     }
 
     /// A box of `size` m (length x, height y, width z) about its centre.
@@ -168,7 +176,7 @@ impl Hull {
     fn closed(shape: Shape) -> Self {
         let solid = shape.solid();
         let spans = shape.spans(&solid);
-        Self(Arc::new(Inner { made: Made::Shape(shape), solid, spans }))
+        Self(Arc::new(Inner { made: Made::Shape(shape), solid, spans, fitted: Mutex::default() }))
     }
 
     /// Whole volume in m^3.
@@ -221,9 +229,27 @@ impl Hull {
     pub fn force_points(&self, count: u32, volume: f32) -> Vec<ForcePoint> {
         let Solid { low, high, .. } = self.0.solid;
         match &self.0.made {
-            Made::Mesh(_) => columns::columns(&self.0.spans, low, high, count, f64::from(volume)),
+            Made::Mesh(mesh) => self.fitted_points(mesh, count, volume, (low, high)),
             Made::Shape(shape) => shape.points(count),
         }
+    }
+
+    /// Columns fitted to the mesh, which takes some ms; those fitted last are kept.
+    fn fitted_points(&self, mesh: &TriMesh, count: u32, volume: f32, bounds: (DVec3, DVec3)) -> Vec<ForcePoint> {
+        let key = (count, volume.to_bits());
+        let kept = || self.0.fitted.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = kept().iter().find(|f| f.0 == key) {
+            return found.1.clone();
+        }
+        let mut points = columns::columns(&self.0.spans, bounds.0, bounds.1, count, f64::from(volume));
+        let panels = clip::panels::Panels::new(mesh, Vec3::ZERO, &[]);
+        quadrature::fit(&mut points, &panels, bounds, f64::from(volume), self.0.solid.volume);
+        let mut kept = kept();
+        if kept.len() >= FITS_KEPT {
+            kept.remove(0);
+        }
+        kept.push((key, points.clone()));
+        points
     }
 
     /// Number of force points when none is asked for: as few as keep the draft within 1 %.
