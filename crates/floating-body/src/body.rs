@@ -1,6 +1,7 @@
 //! A floating body: its state, and one tick of its motion.
 
 mod clipped;
+mod explain;
 mod moorings;
 mod query;
 mod radiate;
@@ -13,6 +14,7 @@ mod touch;
 use glam::{Mat3, Vec2, Vec3};
 
 use self::clipped::Clipping;
+pub use self::explain::{Explanation, Load, LoadKind};
 pub use self::state::{BodyState, Wrench};
 use self::stiffness::stiffness;
 use self::touch::Solids;

@@ -42,7 +42,7 @@ mod rotation;
 mod source;
 mod water;
 
-pub use body::{Body, BodyState, Wrench};
+pub use body::{Body, BodyState, Explanation, Load, LoadKind, Wrench};
 pub use coefficients::Coefficients;
 pub use contact::Contact;
 pub use desc::{BodyDesc, ForcePoints, Inertia, Quality, Radiation, Sampling};

@@ -17,7 +17,7 @@ const BLEND: f32 = 0.5;
 /// Beyond `Near` clipping fades out until this multiple of it.
 const FAR: f32 = 1.25;
 /// Triangles under a surface that is sampled have edges of this share of the hull's length at most.
-const LONGEST: f32 = 1.0 / 12.0;
+pub(super) const LONGEST: f32 = 1.0 / 12.0;
 /// Samples closer than this share of the hull's length count once.
 const SAME: f32 = 1.0e-3;
 
@@ -96,7 +96,7 @@ impl Clipping {
     }
 
     /// Replaces buoyancy by what clipping finds, as far as the share goes.
-    fn wet(&mut self, wet: &mut Wetness, waters: &[LocalWater], own: bool, pose: &Pose, desc: &BodyDesc) {
+    pub(super) fn mix(&mut self, wet: &mut Wetness, waters: &[LocalWater], own: bool, pose: &Pose, desc: &BodyDesc) {
         let to_hull = pose.rotation.transpose();
         let at = Vec2::new(pose.position.x, pose.position.z);
         let plane = |water: &LocalWater| {
@@ -175,7 +175,7 @@ impl Body {
 
     pub(super) fn clip(&mut self, wet: &mut Wetness, pose: &Pose) {
         if let Some(clipping) = self.clipping.as_mut().filter(|c| c.share > 0.0) {
-            clipping.wet(wet, &self.waters, self.feels_own, pose, &self.desc);
+            clipping.mix(wet, &self.waters, self.feels_own, pose, &self.desc);
         }
     }
 }

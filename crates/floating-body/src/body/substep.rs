@@ -131,7 +131,7 @@ impl Body {
     }
 
     /// Thrust and rudder in hull axes, and their torque about the centre of mass.
-    fn engine(&self, pose: &Pose, through_water: Vec3, controls: &Controls, dt: f32) -> (Vec3, Vec3) {
+    pub(super) fn engine(&self, pose: &Pose, through_water: Vec3, controls: &Controls, dt: f32) -> (Vec3, Vec3) {
         let (Some(engine), Some(water)) = (&self.desc.engine, self.waters.last()) else {
             return (Vec3::ZERO, Vec3::ZERO);
         };

@@ -45,27 +45,11 @@ impl Hull {
     ///
     /// Exact for planes and polyhedra. Balls and cylinders are cut as polyhedra of the same volume (some 1,000
     /// triangles: centres within 0.5 % of their size).
-    pub fn clip(&self, position: Vec3, orientation: Quat, mut height: impl FnMut(Vec2) -> f32) -> Clip {
-        let rotation: DMat3 = matrix(orientation).as_dmat3();
-        let origin = position.as_dvec3();
-        let own;
-        let mesh = match &self.0.made {
-            Made::Mesh(mesh) => mesh,
-            Made::Shape(shape) => {
-                own = tessellate::shape(shape);
-                &own
-            }
-        };
-        let vertices: Vec<DVec3> = mesh.vertices.iter().map(|v| rotation * v.as_dvec3()).collect();
-        let depths: Vec<f64> = vertices
-            .iter()
-            .map(|v| {
-                let at = origin + *v;
-                let depth = f64::from(height(Vec2::new(at.x as f32, at.z as f32))) - at.y;
-                if depth.is_finite() { depth } else { -1.0 }
-            })
-            .collect();
-        exact::clip(&mesh.indices, &vertices, &depths, origin)
+    pub fn clip(&self, position: Vec3, orientation: Quat, height: impl FnMut(Vec2) -> f32) -> Clip {
+        match &self.0.made {
+            Made::Mesh(mesh) => cut(mesh, position, orientation, height),
+            Made::Shape(shape) => cut(&tessellate::shape(shape), position, orientation, height),
+        }
     }
 
     /// The surface that is clipped: the mesh, or one that stands for a closed shape, with edges of `longest` m at most.
@@ -76,4 +60,18 @@ impl Hull {
         };
         tessellate::split(mesh, longest)
     }
+}
+
+/// As [`Hull::clip`], of a closed outward mesh.
+pub(crate) fn cut(mesh: &TriMesh, position: Vec3, orientation: Quat, mut height: impl FnMut(Vec2) -> f32) -> Clip {
+    let rotation: DMat3 = matrix(orientation).as_dmat3();
+    let origin = position.as_dvec3();
+    let vertices: Vec<DVec3> = mesh.vertices.iter().map(|v| rotation * v.as_dvec3()).collect();
+    let depth = |v: &DVec3| {
+        let at = origin + *v;
+        let depth = f64::from(height(Vec2::new(at.x as f32, at.z as f32))) - at.y;
+        if depth.is_finite() { depth } else { -1.0 }
+    };
+    let depths: Vec<f64> = vertices.iter().map(depth).collect();
+    exact::clip(&mesh.indices, &vertices, &depths, origin)
 }
