@@ -49,7 +49,7 @@ pub use desc::{BodyDesc, ForcePoints, Inertia, Quality, Radiation, Sampling};
 pub use drag::Drag;
 pub use engine::{Controls, Engine};
 pub use error::BodyError;
-pub use fleet::{Activity, Fleet, FleetDesc, PieceId};
+pub use fleet::{Activity, Fleet, FleetDesc, PieceId, SoftContact};
 pub use hull::{Clip, Clipper, Closure, Hull, HullKind, Push, TriMesh, Waterline};
 pub use mooring::MooringLine;
 pub use point::{ForcePoint, PointShape};

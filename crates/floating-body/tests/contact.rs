@@ -3,13 +3,14 @@
 use std::f32::consts::TAU;
 
 use floating_body::{
-    Body, BodyDesc, BodyState, Contact, Controls, Drag, FlatWater, Hull, HullKind, SurfacePatch, SurfaceSample, Touch,
-    WATER_DENSITY, WaterSurface,
+    Activity, Body, BodyDesc, BodyState, Contact, Controls, Drag, FlatWater, Fleet, FleetDesc, Hull, HullKind,
+    SoftContact, SurfacePatch, SurfaceSample, Touch, WATER_DENSITY, WaterSurface,
 };
 use glam::{Quat, Vec2, Vec3, Vec3Swizzles};
 use proptest::prelude::*;
 
 const G: f32 = 9.81;
+const DT: f32 = 1.0 / 60.0;
 const NONE: Controls = Controls { throttle: 0.0, steering: 0.0, force: Vec3::ZERO, torque: Vec3::ZERO };
 
 /// A half space through the origin and flat water at a height.
@@ -251,8 +252,104 @@ proptest! {
             let buoyed = if wet { 0.5 * G * (way + 2.0) + speed(&before).powi(2) } else { 0.0 };
             let margin = f64::from(mass * (freed + buoyed)) + 1e-3 * least.abs();
             prop_assert!(now < least + margin, "{now} J after {least} J + {margin} J, {before:?} {:?}", body.state());
-            least = least.min(now);
+            // An impact in the water took from what moved along.
+            least = if wet { now } else { least.min(now) };
         }
         prop_assert_eq!(body.resets(), 0);
     }
+}
+
+/// A fleet of balls on still water that push each other apart.
+fn balls(at: &[Vec3], velocity: impl Fn(usize) -> Vec3) -> Fleet {
+    let hull = Hull::sphere(0.5).unwrap();
+    let mut body = BodyDesc::from_hull(&hull, 0.5 * WATER_DENSITY * hull.volume());
+    (body.drag, body.coefficients) = (Drag::default(), Default::default());
+    let contact = Some(SoftContact::of(&hull));
+    let mut fleet = Fleet::new(FleetDesc { contact, sleeps: false, ..FleetDesc::new(body) }).unwrap();
+    for (i, position) in at.iter().enumerate() {
+        fleet.add(BodyState { velocity: velocity(i), ..BodyState::at_rest(*position) }).unwrap();
+    }
+    fleet
+}
+
+fn momentum_and_energy(fleet: &Fleet) -> (Vec3, f32) {
+    fleet.iter().fold((Vec3::ZERO, 0.0), |(p, e), (_, s)| (p + s.velocity, e + s.velocity.length_squared()))
+}
+
+#[test]
+fn flotsam_keeps_apart_with_its_momentum_and_no_more_energy_whatever_the_order() {
+    let mut random = 1_u32;
+    let mut number = |low: f32, high: f32| {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        low + (high - low) * (random >> 8) as f32 / (1 << 24) as f32
+    };
+    let at: Vec<Vec3> = (0..400).map(|_| Vec3::new(number(-9.0, 9.0), 0.0, number(-9.0, 9.0))).collect();
+    let speeds: Vec<Vec3> = at.iter().map(|p| Vec3::new(-0.1 * p.x + number(-0.3, 0.3), 0.0, -0.1 * p.z)).collect();
+    let mut fleet = balls(&at, |i| speeds[i]);
+    let mut most = momentum_and_energy(&fleet).1;
+    let start = momentum_and_energy(&fleet).0;
+    let closest = |fleet: &Fleet| {
+        let all: Vec<Vec3> = fleet.iter().map(|(_, s)| s.position).collect();
+        let pairs = all.iter().enumerate().flat_map(|(i, a)| all[..i].iter().map(move |b| a.distance(*b)));
+        pairs.filter(|d| *d < 0.6).count()
+    };
+    let crowded = closest(&fleet);
+    for tick in 0..600 {
+        fleet.step(DT, &FlatWater::default());
+        let (momentum, energy) = momentum_and_energy(&fleet);
+        assert!((momentum - start).length() < 1e-2, "{momentum} after {start}");
+        // In the first second what was put into each other comes apart.
+        assert!(tick < 60 || energy <= most, "{tick}: {energy} after {most}");
+        most = if tick < 60 { most.max(energy) } else { most };
+    }
+    assert!(crowded > 200 && closest(&fleet) == 0, "{crowded} pairs, then {}", closest(&fleet));
+
+    // The same pieces in another order: the same motion, bit by bit where each has at most one contact.
+    let two = [Vec3::ZERO, Vec3::new(0.9, 0.0, 0.1), Vec3::new(5.0, 0.0, 0.0)];
+    let (mut here, mut there) = (balls(&two, |_| Vec3::ZERO), balls(&[two[2], two[1], two[0]], |_| Vec3::ZERO));
+    for _ in 0..60 {
+        here.step(DT, &FlatWater::default());
+        there.step(DT, &FlatWater::default());
+    }
+    let of = |fleet: &Fleet| fleet.iter().map(|(_, s)| s.position).collect::<Vec<_>>();
+    let (here, there) = (of(&here), of(&there));
+    assert!(here[0] == there[2] && here[1] == there[1] && here[1].x > 0.95, "{here:?} {there:?}");
+}
+
+#[test]
+fn ten_thousand_pieces_in_one_place_hold_up_nothing() {
+    let at: Vec<Vec3> = (0..10_000).map(|i| Vec3::splat(1e-4 * (i % 7) as f32)).collect();
+    let mut fleet = balls(&at, |_| Vec3::ZERO);
+    for _ in 0..20 {
+        fleet.step(DT, &FlatWater::default());
+    }
+    assert!(fleet.resets() == 0 && fleet.iter().all(|(_, s)| s.position.is_finite()));
+}
+
+#[test]
+fn flotsam_meets_bed_and_quay_and_wakes_what_sleeps() {
+    let mut fleet = balls(&[Vec3::new(-2.0, 0.0, 0.0)], |_| Vec3::X * 2.0);
+    let quay = Ground { normal: Vec3::NEG_X, water: 0.0, foresees: true };
+    for _ in 0..300 {
+        fleet.step(DT, &quay);
+    }
+    let (_, state) = fleet.iter().next().unwrap();
+    assert!(state.position.x < -0.45 && state.velocity.x <= 1e-3, "{state:?}");
+
+    let hull = Hull::sphere(0.5).unwrap();
+    let body = BodyDesc::from_hull(&hull, 0.5 * WATER_DENSITY * hull.volume());
+    let desc = FleetDesc { contact: Some(SoftContact::of(&hull)), ..FleetDesc::new(body) };
+    let mut fleet = Fleet::new(desc).unwrap();
+    let sleeper = fleet.add(BodyState::at_rest(Vec3::ZERO)).unwrap();
+    for _ in 0..60 * 20 {
+        fleet.step(DT, &FlatWater::default());
+    }
+    assert_eq!(fleet.activity(sleeper), Some(Activity::Asleep));
+    let velocity = Vec3::X * 3.0;
+    fleet.add(BodyState { velocity, ..BodyState::at_rest(Vec3::X * -2.0) }).unwrap();
+    for _ in 0..60 {
+        fleet.step(DT, &FlatWater::default());
+    }
+    assert_eq!(fleet.activity(sleeper), Some(Activity::Awake));
+    assert!(fleet.state(sleeper).unwrap().velocity.x > 0.05, "{:?}", fleet.state(sleeper));
 }

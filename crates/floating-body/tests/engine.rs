@@ -143,7 +143,14 @@ fn whatever_comes_in_the_wrench_is_finite() {
         }
     }
     let bad = [f32::NAN, f32::INFINITY, -1.0e30, 1.0e30, 0.0];
-    let rope = MooringLine { point: Vec3::X, anchor: Vec3::ZERO, length: 1.0, stiffness: 1.0e9, damping: 1.0e9 };
+    let rope = MooringLine {
+        point: Vec3::X,
+        anchor: Vec3::ZERO,
+        length: 1.0,
+        stiffness: 1.0e9,
+        damping: 1.0e9,
+        holds: f32::INFINITY,
+    };
     let mut body = undamped(0.05);
     body.set_moorings(&[rope]).unwrap();
     for (water, value) in bad.iter().flat_map(|w| bad.map(|v| (Wild(*w), v))) {

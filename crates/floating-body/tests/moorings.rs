@@ -15,7 +15,14 @@ fn boat() -> Body {
 }
 
 fn line(length: f32, stiffness: f32) -> MooringLine {
-    MooringLine { point: Vec3::X * 2.8, anchor: Vec3::new(9.0, 1.5, 0.0), length, stiffness, damping: 2000.0 }
+    MooringLine {
+        point: Vec3::X * 2.8,
+        anchor: Vec3::new(9.0, 1.5, 0.0),
+        length,
+        stiffness,
+        damping: 2000.0,
+        holds: f32::INFINITY,
+    }
 }
 
 /// Distance from where the line is made fast on board to its anchor.
@@ -101,7 +108,14 @@ fn stiff_lines_give_no_energy() {
                 let mut desc = BodyDesc::from_hull(&hull, 0.5 * WATER_DENSITY * hull.volume());
                 (desc.drag, desc.coefficients) = (Drag::default(), Coefficients::default());
                 let mut body = Body::new(desc).unwrap();
-                let rope = MooringLine { point: Vec3::ZERO, anchor: Vec3::ZERO, length: 3.0, stiffness, damping };
+                let rope = MooringLine {
+                    point: Vec3::ZERO,
+                    anchor: Vec3::ZERO,
+                    length: 3.0,
+                    stiffness,
+                    damping,
+                    holds: f32::INFINITY,
+                };
                 body.set_moorings(&vec![rope; count]).unwrap();
                 let mut state = BodyState::at_rest(Vec3::new(1.0, 0.0, 0.5));
                 state.velocity = Vec3::new(2.0, 0.0, 1.0);
@@ -142,6 +156,8 @@ fn bad_lines_are_refused_and_change_nothing() {
         (MooringLine { damping: 1.0e12, ..line(6.0, 1.0) }, "mooring.damping is 9"),
         (MooringLine { anchor: Vec3::splat(f32::INFINITY), ..line(6.0, 1.0) }, "mooring.anchor is inf"),
         (MooringLine { point: Vec3::splat(f32::NAN), ..line(6.0, 1.0) }, "mooring.point is NaN"),
+        (MooringLine { holds: 0.0, ..line(6.0, 1.0) }, "mooring.holds is 0; it must be above 0 N"),
+        (MooringLine { holds: f32::NAN, ..line(6.0, 1.0) }, "mooring.holds is NaN"),
     ];
     for (line, text) in bad {
         let error = body.set_moorings(&[line]).unwrap_err();
@@ -164,4 +180,39 @@ fn rebasing_moves_the_anchors() {
     let moved = there.state().position + Vec3::new(100.0, 0.0, -40.0);
     assert!((here.state().position - moved).length() < 2e-3, "{:?} {:?}", here.state(), there.state());
     assert!((here.tensions()[0] - there.tensions()[0]).abs() < 20.0);
+}
+
+/// A boat in a current that pulls with 800 N s/m, held from a point level with its anchor.
+fn anchored(holds: f32, current: f32) -> (Body, Vec<f32>) {
+    let mut body = boat();
+    let mut desc = body.desc().clone();
+    desc.drag = Drag { linear: Vec3::splat(800.0), angular_linear: Vec3::splat(5000.0), ..Drag::default() };
+    body = Body::new(desc).unwrap();
+    let rest = body.state().position.y;
+    let point = Vec3::new(2.8, body.desc().center_of_mass.y, 0.0);
+    let line = MooringLine::anchored(point, Vec3::new(9.0, rest, 0.0), 6.0, 4000.0, holds);
+    body.set_moorings(&[line]).unwrap();
+    let water = FlatWater { height: 0.0, current: Vec3::X * -current };
+    let mut tensions = Vec::new();
+    for _ in 0..60 * 120 {
+        body.step(DT, &water, &NONE);
+        tensions.push(body.tensions()[0]);
+    }
+    (body, tensions)
+}
+
+#[test]
+fn an_anchor_holds_up_to_its_force_and_drags_beyond() {
+    let (body, tensions) = anchored(6000.0, 1.5);
+    assert_eq!(body.moorings()[0].anchor.x, 9.0);
+    assert!((tensions.last().unwrap() - 1200.0).abs() < 12.0);
+    // In three metres a second it is dragged along with what the current pulls beyond: (3 - v) 800 N = 1500 N.
+    let (body, tensions) = anchored(1500.0, 3.0);
+    let line = body.moorings()[0];
+    assert!(tensions.iter().all(|t| *t <= 1500.1) && (tensions.last().unwrap() - 1500.0).abs() < 2.0);
+    let (speed, expected) = (body.state().velocity.x, -(3.0 - 1500.0 / 800.0));
+    assert!((speed / expected - 1.0).abs() < 0.02, "{speed} against {expected} m/s");
+    // The anchor keeps up, level.
+    assert!((span(&body, &line) - line.length - 1500.0 / line.stiffness).abs() < 0.05 && line.anchor.x < -50.0);
+    assert!((line.anchor.y - body.state().position.y).abs() < 0.05, "{line:?}");
 }

@@ -23,6 +23,7 @@ pub(crate) struct Moorings(SlotMap<MooringId, Mooring>);
 
 impl Moorings {
     pub(crate) fn add(&mut self, mooring: Mooring, bodies: &mut Bodies) -> Result<MooringId, OpenWaterError> {
+        self.follow(mooring.body, bodies);
         let id = self.0.insert(mooring);
         if let Err(error) = self.tie(mooring.body, bodies) {
             self.0.remove(id);
@@ -32,8 +33,10 @@ impl Moorings {
     }
 
     pub(crate) fn remove(&mut self, id: MooringId, bodies: &mut Bodies) -> Result<(), OpenWaterError> {
-        let mooring = self.0.remove(id).ok_or(OpenWaterError::UnknownMooring(id))?;
-        self.tie(mooring.body, bodies)
+        let body = self.0.get(id).ok_or(OpenWaterError::UnknownMooring(id))?.body;
+        self.follow(body, bodies);
+        self.0.remove(id);
+        self.tie(body, bodies)
     }
 
     /// Lets go of a body that is gone.
@@ -45,6 +48,15 @@ impl Moorings {
         let mooring = self.0.get(id).ok_or(OpenWaterError::UnknownMooring(id))?;
         let at = self.of(mooring.body).take_while(|(other, _)| *other != id).count();
         Ok(bodies.body(mooring.body)?.tensions().get(at).copied().unwrap_or(0.0))
+    }
+
+    /// Takes over where anchors have dragged to.
+    fn follow(&mut self, body: BodyId, bodies: &Bodies) {
+        let Ok(found) = bodies.body(body) else { return };
+        let mine = self.0.values_mut().filter(|mooring| mooring.body == body);
+        for (mooring, line) in mine.zip(found.moorings()) {
+            mooring.line.anchor = line.anchor;
+        }
     }
 
     fn of(&self, body: BodyId) -> impl Iterator<Item = (MooringId, MooringLine)> {

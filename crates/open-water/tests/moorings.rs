@@ -103,3 +103,21 @@ fn moorings_go_with_their_bodies_and_bad_ones_leave_nothing() {
     let gone = water.add_mooring(Mooring { body: id, line: line(9.0, 7.0) });
     assert!(matches!(gone, Err(OpenWaterError::UnknownBody(_))));
 }
+
+#[test]
+fn an_anchor_that_dragged_stays_where_it_is_when_another_line_comes() {
+    let (mut water, mut states) = (water(0.0), BodyStates::default());
+    let id = boat(&mut water, &mut states);
+    let line = MooringLine { holds: 500.0, ..line(9.0, 7.0) };
+    water.add_mooring(Mooring { body: id, line }).unwrap();
+    water.set_controls(id, Controls { force: Vec3::X * -2000.0, ..Controls::default() }).unwrap();
+    run(&mut water, &mut states, 60 * 30);
+    let dragged = water.body(id).unwrap().moorings()[0].anchor.x;
+    assert!(dragged < 5.0, "{dragged} m");
+    let other = water.add_mooring(Mooring { body: id, line: self::line(-90.0, 200.0) }).unwrap();
+    assert_eq!(water.body(id).unwrap().moorings()[0].anchor.x, dragged);
+    run(&mut water, &mut states, 60);
+    let dragged = water.body(id).unwrap().moorings()[0].anchor.x;
+    water.remove_mooring(other).unwrap();
+    assert_eq!(water.body(id).unwrap().moorings()[0].anchor.x, dragged);
+}

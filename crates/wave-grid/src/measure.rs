@@ -107,6 +107,29 @@ impl WaveGrid {
         hx * hz * inside.filter(|at| open(*at)).map(|at| f64::from(self.state.z[at])).sum::<f64>()
     }
 
+    /// Water that was put into the grid and has not left it, cubic metres: with walls all around the sum of the sources. It
+    /// is [`volume`](Self::volume), but where waves disperse the heights alone do not keep it while waves run; with them
+    /// the screened fields do: less the sum of (X - X_old) / m.
+    pub fn held_volume(&self) -> f64 {
+        let Some(fields) = &self.fields else { return self.volume() };
+        let bed = self.cells().and_then(|cells| cells.bed.as_ref());
+        let (nx, nz) = (self.state.nx, self.state.nz);
+        let mut kept = 0.0;
+        for at in (1..nz - 1).flat_map(|j| j * nx + 1..(j + 1) * nx - 1) {
+            if self.cells().is_some_and(|cells| !cells.is_open(at)) {
+                continue;
+            }
+            for k in 0..FIELDS {
+                let m = f64::from(bed.map_or(fields.law.m[k], |bed| bed.m[k][at]));
+                if m > 0.0 {
+                    kept += (f64::from(fields.screened[k][at]) - f64::from(fields.older[k][at])) / m;
+                }
+            }
+        }
+        let [hx, hz] = self.desc.cell_size.map(f64::from);
+        self.volume() - hx * hz * kept
+    }
+
     /// Whether no value is NaN or infinite.
     pub fn is_finite(&self) -> bool {
         let s = &self.state;

@@ -229,3 +229,23 @@ fn bad_descriptions_are_named() {
     let mut grid = WaveGrid::new(GridDesc::default()).unwrap();
     assert!(grid.impose(&[0.0; 3], &[0.0; 3]).is_err());
 }
+
+#[test]
+fn a_walled_grid_holds_what_was_put_into_it_while_waves_run() {
+    for scheme in [Scheme::NinePoint, Scheme::FivePoint, Scheme::Dispersive] {
+        let border = wave_grid::Border::Reflecting;
+        let desc = GridDesc { cells: [64, 48], cell_size: [0.5; 2], scheme, border, ..GridDesc::default() };
+        let mut grid = WaveGrid::new(desc).unwrap();
+        let mut given = 0.0;
+        for tick in 0..400u16 {
+            if tick % 40 == 0 {
+                let volume = if tick == 120 { -0.7 } else { 0.2 };
+                assert!(grid.add(Source::Displacement { center: Vec2::new(3.0, -2.0), radius: 1.5, volume }));
+                given += f64::from(volume);
+            }
+            grid.tick();
+            let error = (grid.held_volume() - given).abs();
+            assert!(error < 2e-3, "{scheme:?} tick {tick}: {error} m^3 of {given}");
+        }
+    }
+}

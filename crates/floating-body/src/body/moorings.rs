@@ -30,7 +30,7 @@ impl Body {
         Ok(())
     }
 
-    /// The lines that hold it.
+    /// The lines that hold it; anchors are where they have dragged to.
     pub fn moorings(&self) -> &[MooringLine] {
         &self.moorings
     }
@@ -54,7 +54,7 @@ impl Body {
     /// `share` is the sub-step's share of the tick.
     pub(super) fn pull(&mut self, dt: f32, share: f32, pose: &Pose, mobility: &Mobility) {
         let to_axes = mobility.axes.transpose();
-        for (line, mean) in self.moorings.iter().zip(&mut self.tensions) {
+        for (line, mean) in self.moorings.iter_mut().zip(&mut self.tensions) {
             let arm = pose.rotation * (line.point - self.desc.center_of_mass);
             let away = line.anchor - (pose.position + arm);
             let distance = away.length();
@@ -67,11 +67,13 @@ impl Body {
             let turned = pose.rotation * (mobility.inverse * (pose.rotation.transpose() * lever));
             let velocity = self.state.velocity + self.state.angular_velocity.cross(arm);
             let yields = along.dot(pushed) + lever.dot(turned);
-            let tension = line.tension(distance - line.length, -velocity.dot(along), yields, dt);
+            let (tension, drags) = line.tension(distance - line.length, -velocity.dot(along), yields, dt);
             self.state.velocity = (self.state.velocity + pushed * (tension * dt)).clamp_length_max(LIMITS.0);
             let turning = self.state.angular_velocity + turned * (tension * dt);
             self.state.angular_velocity = turning.clamp_length_max(LIMITS.1);
             *mean += tension * share;
+            let level = Vec3::new(along.x, 0.0, along.z);
+            line.anchor -= level * drags;
         }
     }
 }

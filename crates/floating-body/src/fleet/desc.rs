@@ -1,5 +1,6 @@
 //! The description of a fleet, and the handles of its pieces.
 
+use super::SoftContact;
 use crate::error::check_range;
 use crate::{BodyDesc, BodyError, Quality};
 
@@ -21,12 +22,15 @@ pub struct FleetDesc {
     /// A piece that the eye ([`Fleet::look`](crate::Fleet::look)) sees smaller than this angle in radians, 0 to 1, rides:
     /// it follows the water without forces. 0 never. Default 0.002, two pixels of a screen 1080 high.
     pub ride_below: f32,
+    /// Pieces that are awake push each other apart, and wake those asleep. Default none: they go through each other. Bed
+    /// and quays they meet as [`BodyDesc::contact`] says, as balls.
+    pub contact: Option<SoftContact>,
 }
 
 impl FleetDesc {
     /// Pieces of this body, with the defaults.
     pub fn new(body: BodyDesc) -> Self {
-        Self { body, refresh: 4, sleeps: true, ride_below: 0.002 }
+        Self { body, refresh: 4, sleeps: true, ride_below: 0.002, contact: None }
     }
 
     /// Refuses what a step could not digest.
@@ -43,6 +47,7 @@ impl FleetDesc {
             let bound = "Points: pieces of a fleet are not clipped, a body of its own is";
             return Err(BodyError::InvalidValue { field: "body.quality", value: 1.0, bound });
         }
+        self.contact.as_ref().map_or(Ok(()), SoftContact::check)?;
         check_range("refresh", self.refresh as f32, 1.0, 16.0, "in [1, 16] ticks")?;
         check_range("ride_below", self.ride_below, 0.0, 1.0, "in [0, 1] rad").map(drop)
     }

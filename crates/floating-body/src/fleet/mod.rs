@@ -6,6 +6,7 @@
 //! textures and controls.
 
 mod awake;
+mod contact;
 mod crew;
 mod desc;
 mod kernel;
@@ -24,6 +25,8 @@ use fearless_simd::Level;
 use glam::{Quat, Vec2, Vec3};
 use slotmap::SlotMap;
 
+use self::contact::Crowd;
+pub use self::contact::SoftContact;
 use self::crew::Crew;
 pub use self::desc::{Activity, FleetDesc, PieceId};
 use self::pack::Piece;
@@ -62,6 +65,9 @@ pub struct Fleet {
     felt: bool,
     resets: u32,
     level: Level,
+    /// Of the ball that a piece is to bed and quays, m.
+    radius: f32,
+    crowd: Crowd,
 }
 
 impl Fleet {
@@ -74,6 +80,7 @@ impl Fleet {
         let mut one = desc.body.clone();
         one.sampling = Sampling::Patch;
         let body = Body::new(one)?;
+        let radius = SoftContact::of(&body.desc().hull).radius;
         Ok(Self {
             template: Template::new(&body),
             body,
@@ -89,6 +96,8 @@ impl Fleet {
             felt: false,
             resets: 0,
             level: Level::new(),
+            radius,
+            crowd: Crowd::default(),
         })
     }
 

@@ -50,6 +50,7 @@ impl Fleet {
         let count = self.awake.len();
         let done = awake::run(&tick, &mut self.awake.packs, count);
         self.resets = self.resets.saturating_add(done.resets);
+        self.collide(dt, water);
         self.ride(water);
         self.now += f64::from(dt);
         if self.desc.sleeps && done.quiet >= DROWSY.0 {

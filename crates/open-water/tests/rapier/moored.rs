@@ -99,7 +99,7 @@ fn a_line_like_a_rod_holds_in_rapier_without_a_tremor() {
         let mut world = World::new(desc);
         let (id, handle) = world.spawn(boat(), Vec3::Y * 0.2);
         let (point, anchor) = (Vec3::X * 3.0, Vec3::new(8.0, 0.2, 0.0));
-        let line = MooringLine { point, anchor, length: 6.0, stiffness, damping: 3000.0 };
+        let line = MooringLine { point, anchor, length: 6.0, stiffness, damping: 3000.0, holds: f32::INFINITY };
         let mooring = world.water.add_mooring(Mooring { body: id, line }).unwrap();
         let pull = Controls { force: Vec3::X * -3000.0, ..Controls::default() };
         world.water.set_controls(id, pull).unwrap();
