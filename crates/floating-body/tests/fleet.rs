@@ -281,7 +281,7 @@ fn rebasing_disturbs_nothing_whatever_pieces_do() {
     let run = |offset: Vec2| {
         let (mut fleet, ids) = field(10, 4.0);
         let mut pond = Pond { reach: -1.0e3, ..Pond::default() };
-        fleet.look(Some(Vec3::new(0.0, 3.0, 590.0)));
+        fleet.look(Some(Vec3::new(0.0, 3.0, 900.0)));
         for tick in 0..1200 {
             if tick == 1100 {
                 fleet.rebase(offset);
@@ -289,6 +289,7 @@ fn rebasing_disturbs_nothing_whatever_pieces_do() {
             }
             fleet.step(DT, &pond);
         }
+        assert!(count(&fleet, &ids, Activity::Riding) > 10 && count(&fleet, &ids, Activity::Riding) < 90);
         let activities: Vec<_> = ids.iter().map(|id| fleet.activity(*id).unwrap()).collect();
         let places: Vec<_> = ids.iter().map(|id| fleet.state(*id).unwrap().position).collect();
         (activities, places)

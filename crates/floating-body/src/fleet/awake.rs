@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::kernel::{Motion, substep};
 use super::lanes::{LANES, Turn, V3, load, pair};
-use super::pack::{Pack, Plane};
+use super::pack::Pack;
 use super::tell::measure;
 use super::template::{Pace, Template};
 use super::tick::QUIET;
@@ -84,7 +84,7 @@ fn read(tick: &Tick, packs: &mut [Pack], first: usize, count: usize) {
         pack.fresh = false;
         for lane in 0..LANES.min(count - i * LANES) {
             let (water, ambient) = read_plane(centers[n], &patches[n]);
-            pack.set_plane(lane, &Plane { water, ambient, age: 0.0 });
+            pack.read_plane(lane, water, ambient);
             n += 1;
         }
     }
@@ -112,6 +112,12 @@ fn surface<S: Simd>(simd: S, pack: &Pack, felt: bool) -> Surface<S> {
     let rise = flow.y - (slope[0] * flow.x + slope[1] * flow.z);
     let carried = (rise + acceleration * age * 0.5) * age;
     let height = load(simd, &pack.height) + carried;
+    let turned = pair(simd, &pack.turning);
+    let turned = [turned[0] * age, turned[1] * age];
+    // As far as driven by the mean slope.
+    let driven = [slope[0] + turned[0] * 0.5, slope[1] + turned[1] * 0.5];
+    let slope = [slope[0] + turned[0], slope[1] + turned[1]];
+    let ambient = [ambient[0] + turned[0], ambient[1] + turned[1]];
     let decay = load(simd, &pack.decay);
     Surface {
         center: pair(simd, &pack.center),
@@ -120,9 +126,9 @@ fn surface<S: Simd>(simd: S, pack: &Pack, felt: bool) -> Surface<S> {
         slope,
         // Water is driven down the slope of the surface that it makes.
         flow: V3::new(
-            flow.x - slope[0] * age * GRAVITY,
+            flow.x - driven[0] * age * GRAVITY,
             flow.y + acceleration * age,
-            flow.z - slope[1] * age * GRAVITY,
+            flow.z - driven[1] * age * GRAVITY,
         ),
         acceleration,
         decay,

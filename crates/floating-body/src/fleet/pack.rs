@@ -6,12 +6,17 @@ use super::lanes::{LANES, Row};
 use crate::BodyState;
 use crate::forces::LocalWater;
 
+/// A change of slope is believed that was seen over no longer than this, s, and up to so much of it, 1/s.
+const TRUSTED: (f32, f32) = (0.15, 2.0);
+
 /// The plane of water under a piece, as it was read `age` s ago.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Plane {
     pub(super) water: LocalWater,
     /// Slope of the height without the home grid's waves.
     pub(super) ambient: Vec2,
+    /// How fast the slope changes under the piece, 1/s.
+    pub(super) turning: Vec2,
     /// s.
     pub(super) age: f32,
 }
@@ -67,7 +72,7 @@ impl Piece {
         let jumped = state.position.distance(self.state.position) > far;
         let told = if jumped { Told::NOTHING } else { self.told };
         let before = if jumped { (state.position, state.orientation) } else { self.before };
-        Self { state, before, quiet: 0.0, told, ..*self }
+        Self { state, before, plane: Plane::default(), quiet: 0.0, told, ..*self }
     }
 }
 
@@ -89,6 +94,7 @@ pub(super) struct Pack {
     pub(super) level: Row,
     pub(super) ambient: [Row; 2],
     pub(super) slope: [Row; 2],
+    pub(super) turning: [Row; 2],
     pub(super) flow: [Row; 3],
     pub(super) acceleration: Row,
     pub(super) decay: Row,
@@ -134,6 +140,7 @@ impl Pack {
             level: zero,
             ambient: [zero; 2],
             slope: [zero; 2],
+            turning: [zero; 2],
             flow: [zero; 3],
             acceleration: zero,
             decay: zero,
@@ -171,6 +178,7 @@ impl Pack {
         (self.height[lane], self.own[lane], self.level[lane]) = (w.height, w.own, w.level);
         (self.ambient[0][lane], self.ambient[1][lane]) = (plane.ambient.x, plane.ambient.y);
         (self.slope[0][lane], self.slope[1][lane]) = (w.slope.x, w.slope.y);
+        (self.turning[0][lane], self.turning[1][lane]) = (plane.turning.x, plane.turning.y);
         set3(&mut self.flow, lane, w.velocity);
         (self.acceleration[lane], self.decay[lane], self.age[lane]) = (w.acceleration, w.decay, plane.age);
     }
@@ -187,7 +195,16 @@ impl Pack {
             decay: self.decay[lane],
             level: self.level[lane],
         };
-        Plane { water, ambient: pair(&self.ambient), age: self.age[lane] }
+        Plane { water, ambient: pair(&self.ambient), turning: pair(&self.turning), age: self.age[lane] }
+    }
+
+    /// Takes a new plane. The slope goes on changing as it has since the last reading, unless that is too long ago.
+    pub(super) fn read_plane(&mut self, lane: usize, water: LocalWater, ambient: Vec2) {
+        let age = self.age[lane];
+        let old = Vec2::new(self.slope[0][lane], self.slope[1][lane]);
+        let turning = if age > 0.0 && age <= TRUSTED.0 { (water.slope - old) / age } else { Vec2::ZERO };
+        let turning = turning.clamp_length_max(TRUSTED.1);
+        self.set_plane(lane, &Plane { water, ambient, turning, age: 0.0 });
     }
 
     fn told(&self, which: usize, lane: usize) -> Told {

@@ -72,6 +72,7 @@ impl Rider {
         let gradient = if felt { w.slope } else { plane.ambient };
         w.height += (w.rise() + 0.5 * w.acceleration * plane.age) * plane.age + gradient.dot(spot - w.at);
         w.velocity.y += w.acceleration * plane.age;
+        w.slope += plane.turning * plane.age;
         (w.at, plane.age) = (spot, 0.0);
         let above = piece.state.position.y - swing(&plane, felt, 0.0).0;
         let t = tilt(plane.water.slope);
@@ -118,7 +119,7 @@ impl Rider {
         let flow = self.plane.water.velocity;
         self.spot += Vec2::new(flow.x, flow.z) * age;
         let (water, ambient) = read_plane(self.spot, &patch);
-        self.plane = Plane { water, ambient, age: 0.0 };
+        self.plane = Plane { water, ambient, turning: Vec2::ZERO, age: 0.0 };
         self.since = now;
         self.excess = (was.0 - swing(&self.plane, felt, 0.0).0, was.1 - water.slope);
     }
