@@ -2,6 +2,7 @@
 //!
 //! The crate is usable alone: it asks for the water through [`WaterSurface`] and answers with poses, and with the
 //! volume that each body displaced ([`Body::displacements`]). [`FlatWater`] and [`AiryWave`] stand in for an ocean.
+//! [`Fleet`] moves many pieces of one description for a fraction of what bodies of their own cost.
 //! Method: force points as in Yang et al. 2017, section 3, with hydrostatics and added mass of linear theory.
 //! Units are m, s, kg, rad; y is up, a hull's x is forward. No slamming, planing lift or contact between bodies.
 //!

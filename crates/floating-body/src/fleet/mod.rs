@@ -46,6 +46,25 @@ enum Place {
 }
 
 /// Many bodies of one description. Made from a [`FleetDesc`], moved by [`Fleet::step`].
+///
+/// ```
+/// use floating_body::{Activity, BodyDesc, BodyError, BodyState, FlatWater, Fleet, FleetDesc, Hull};
+/// use glam::Vec3;
+///
+/// # fn main() -> Result<(), BodyError> {
+/// let hull = Hull::cuboid(Vec3::splat(1.0))?; // crates of 1 m^3
+/// let mut fleet = Fleet::new(FleetDesc::new(BodyDesc::from_hull(&hull, 400.0)))?;
+/// let mut crates = Vec::new();
+/// for i in 0..100 {
+///     crates.push(fleet.add(BodyState::at_rest(Vec3::new(2.0 * i as f32, 0.5, 0.0)))?);
+/// }
+/// for _ in 0..60 * 60 {
+///     fleet.step(1.0 / 60.0, &FlatWater::default());
+/// }
+/// assert_eq!(fleet.activity(crates[0]), Some(Activity::Asleep)); // the water is calm
+/// # Ok(())
+/// # }
+/// ```
 pub struct Fleet {
     desc: FleetDesc,
     body: Body,

@@ -17,8 +17,6 @@ const MOVED: (f32, f32, f32) = (0.01, 0.01, 0.02);
 /// Neighbours.
 #[derive(Clone)]
 pub(super) struct Block {
-    low: Vec2,
-    high: Vec2,
     pub(super) ids: Vec<PieceId>,
     pub(super) pieces: Vec<Piece>,
 }
@@ -26,6 +24,8 @@ pub(super) struct Block {
 /// See the module.
 #[derive(Clone, Default)]
 pub(super) struct Sleepers {
+    /// Corners of the blocks: all that a tick on calm water reads.
+    bounds: Vec<[Vec2; 2]>,
     pub(super) blocks: Vec<Block>,
     count: usize,
 }
@@ -36,28 +36,18 @@ fn spot((_, piece): &Sleeper) -> Vec2 {
     Vec2::new(piece.state.position.x, piece.state.position.z)
 }
 
+/// Corners of what they cover.
+fn span(of: &[Sleeper]) -> (Vec2, Vec2) {
+    of.iter().fold((Vec2::MAX, Vec2::MIN), |(low, high), s| (low.min(spot(s)), high.max(spot(s))))
+}
+
 impl Block {
-    fn new(of: &[Sleeper], reach: f32) -> Self {
-        let mut block = Self {
-            low: Vec2::MAX,
-            high: Vec2::MIN,
-            ids: Vec::with_capacity(of.len()),
-            pieces: Vec::with_capacity(of.len()),
-        };
-        for sleeper in of {
-            block.low = block.low.min(spot(sleeper) - reach);
-            block.high = block.high.max(spot(sleeper) + reach);
-            block.ids.push(sleeper.0);
-            block.pieces.push(sleeper.1);
-        }
-        block
+    fn new(of: &[Sleeper]) -> Self {
+        Self { ids: of.iter().map(|s| s.0).collect(), pieces: of.iter().map(|s| s.1).collect() }
     }
 
     /// Whether the water has moved under a piece whose turn it is.
     fn stirs(&self, water: &dyn WaterSurface, footprint: f32, tick: usize, refresh: usize) -> bool {
-        if water.is_calm(self.low, self.high) {
-            return false;
-        }
         let (mut centers, mut patches) = ([Vec2::ZERO; BLOCK], [SurfacePatch::default(); BLOCK]);
         let first = (refresh - tick % refresh) % refresh;
         let due = || self.pieces.iter().skip(first).step_by(refresh);
@@ -83,6 +73,7 @@ impl Sleepers {
         // Those who came one by one are put together with all others.
         let scattered = self.blocks.len() + new.len().div_ceil(BLOCK) > 2 * self.count.div_ceil(BLOCK) + 8;
         if scattered {
+            self.bounds.clear();
             for block in self.blocks.drain(..) {
                 new.extend(block.ids.into_iter().zip(block.pieces));
             }
@@ -96,11 +87,13 @@ impl Sleepers {
     fn split(&mut self, of: &mut [Sleeper], reach: f32) {
         if of.len() <= BLOCK {
             if !of.is_empty() {
-                self.blocks.push(Block::new(of, reach));
+                let (low, high) = span(of);
+                self.bounds.push([low - reach, high + reach]);
+                self.blocks.push(Block::new(of));
             }
             return;
         }
-        let (low, high) = of.iter().fold((Vec2::MAX, Vec2::MIN), |(l, h), s| (l.min(spot(s)), h.max(spot(s))));
+        let (low, high) = span(of);
         let size = high - low;
         // Whole blocks on one side.
         let middle = of.len().div_ceil(BLOCK) / 2 * BLOCK;
@@ -121,7 +114,7 @@ impl Sleepers {
         block.pieces.swap_remove(at)
     }
 
-    /// The first block, from `from` on, whose water stirs, or that is empty.
+    /// The first block, from `from` on, whose water is no longer calm and stirs, or that is empty.
     pub(super) fn next_to_wake(
         &self,
         from: usize,
@@ -130,21 +123,24 @@ impl Sleepers {
         tick: usize,
         refresh: usize,
     ) -> Option<usize> {
-        let stirs = |block: &Block| block.ids.is_empty() || block.stirs(water, footprint, tick, refresh);
-        self.blocks.iter().skip(from).position(stirs).map(|i| i + from)
+        (from..self.blocks.len()).find(|&i| {
+            let [low, high] = self.bounds[i];
+            !water.is_calm(low, high)
+                && (self.blocks[i].ids.is_empty() || self.blocks[i].stirs(water, footprint, tick, refresh))
+        })
     }
 
     /// Takes a block out. The last takes its place.
     pub(super) fn wake(&mut self, block: usize) -> Block {
+        self.bounds.swap_remove(block);
         let block = self.blocks.swap_remove(block);
         self.count -= block.ids.len();
         block
     }
 
     pub(super) fn rebase(&mut self, offset: Vec2) {
+        self.bounds.as_flattened_mut().iter_mut().for_each(|corner| *corner -= offset);
         for block in &mut self.blocks {
-            block.low -= offset;
-            block.high -= offset;
             block.pieces.iter_mut().for_each(|p| p.rebase(offset));
         }
     }
