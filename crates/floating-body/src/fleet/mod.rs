@@ -52,8 +52,8 @@ enum Place {
 /// use glam::Vec3;
 ///
 /// # fn main() -> Result<(), BodyError> {
-/// let hull = Hull::cuboid(Vec3::splat(1.0))?; // crates of 1 m^3
-/// let mut fleet = Fleet::new(FleetDesc::new(BodyDesc::from_hull(&hull, 400.0)))?;
+/// let hull = Hull::cuboid(Vec3::new(1.2, 0.6, 1.0))?; // crates that float upright
+/// let mut fleet = Fleet::new(FleetDesc::new(BodyDesc::from_hull(&hull, 300.0)))?;
 /// let mut crates = Vec::new();
 /// for i in 0..100 {
 ///     crates.push(fleet.add(BodyState::at_rest(Vec3::new(2.0 * i as f32, 0.5, 0.0)))?);
