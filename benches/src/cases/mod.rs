@@ -1,6 +1,8 @@
 //! The cases of the evidence, one file a topic.
 
 mod body_float;
+mod body_flow;
+mod body_swing;
 mod dispersion;
 mod dispersive_border;
 mod dispersive_choice;
@@ -118,6 +120,12 @@ pub const CASES: &[Case] = &[
     fleet_inertia::ERROR,
     fleet_inertia::TIME,
     fleet_inertia::TUMBLE,
+    body_swing::BARGE,
+    body_swing::DECAY,
+    body_swing::INTEGRATOR,
+    body_flow::RESPONSE,
+    body_flow::TERMINAL,
+    body_flow::CURRENT,
     fleet_gpu::FLEET,
     fleet_water::AGAINST_BODY,
     fleet_water::REFRESH,

@@ -51,7 +51,7 @@ const BARGE: [[f64; 3]; 34] = [
 ];
 
 /// Hulme (1982), table 1: ka, and added mass and damping over omega in units of the displaced mass.
-const HEMISPHERE: [[f64; 3]; 12] = [
+pub const HULME: [[f64; 3]; 12] = [
     [0.05, 0.8764, 0.1036],
     [0.1, 0.8627, 0.1816],
     [0.2, 0.7938, 0.2793],
@@ -78,7 +78,7 @@ impl Memory {
     pub fn hemisphere(radius: f64) -> Self {
         let mass = 2.0 / 3.0 * PI * 1000.0 * radius.powi(3);
         let mut rows = vec![[0.0, 0.831 * mass, 0.0]];
-        rows.extend(HEMISPHERE.map(|[ka, a, b]| {
+        rows.extend(HULME.map(|[ka, a, b]| {
             let omega = (G * ka / radius).sqrt();
             [omega, a * mass, b * mass * omega]
         }));
