@@ -5,6 +5,7 @@ mod explain;
 mod moorings;
 mod query;
 mod radiate;
+mod slams;
 mod state;
 mod stiffness;
 mod substep;
@@ -18,11 +19,13 @@ pub use self::explain::{Explanation, Load, LoadKind};
 pub use self::state::{BodyState, Wrench};
 use self::stiffness::stiffness;
 use self::touch::Solids;
+use crate::coefficients::pabst;
 use crate::desc::Inertia;
 use crate::forces::LocalWater;
 use crate::hull::Waterline;
 use crate::radiation::{Memory, Radiator};
 use crate::rotation::{normalized, principal_moments};
+use crate::slam::Slam;
 use crate::source::{Column, Displacement};
 use crate::{BodyDesc, BodyError, ForcePoint, MooringLine, SurfaceSample};
 
@@ -93,6 +96,12 @@ pub struct Body {
     /// Bed and quays.
     solids: Solids,
     immersed: f32,
+    /// How its bottom meets the water.
+    slam: Option<Box<Slam>>,
+    /// The wind at its height, m/s.
+    wind: Vec3,
+    /// Over that 10 m above the water.
+    lull: f32,
     /// Of the waves it made, where no grid carries them.
     memory: Option<Box<Memory>>,
     /// None for a body of force points.
@@ -160,6 +169,9 @@ impl Body {
             tensions: Vec::new(),
             solids: Solids::new(&desc),
             immersed: 0.0,
+            slam: None,
+            wind: Vec3::ZERO,
+            lull: 0.0,
             memory: None,
             clipping: Clipping::new(&desc, &points),
             radiator: None,
@@ -170,6 +182,10 @@ impl Body {
             desc,
         };
         body.check_tables()?;
+        let (desc, w) = (&body.desc, &body.waterline);
+        body.lull = desc.windage.at_height(desc.windage.center.y - w.level);
+        let finite = pabst(w.extent.max_element() / w.extent.min_element().max(1.0e-3));
+        body.slam = desc.slamming.as_ref().map(|s| Box::new(Slam::new(s, &body.points, w, finite, desc.water_density)));
         body.memory = if body.desc.memory { Memory::new(&body.afloat()).map(Box::new) } else { None };
         Ok(body)
     }

@@ -5,6 +5,9 @@ use glam::{Mat3, Vec3};
 use crate::coefficients::{Afloat, Coefficients};
 use crate::drag::Drag;
 use crate::error::check_range;
+use crate::skin::Skin;
+use crate::slam::Slamming;
+use crate::wind::Windage;
 use crate::{BodyError, Contact, Engine, ForcePoint, GRAVITY, Hull, RadiationTables, WATER_DENSITY};
 
 /// Bodies shorter than this, in m, read one patch of water by default.
@@ -105,6 +108,13 @@ pub struct BodyDesc {
     pub tables: RadiationTables,
     /// Water friction and form drag.
     pub drag: Drag,
+    /// Skin friction along the hull. Default: none for closed shapes, whose form drag hides it; by the waterline's
+    /// dimensions for meshes.
+    pub skin: Option<Skin>,
+    /// What the wind finds. Default: the hull's box over the water.
+    pub windage: Windage,
+    /// Blows on the bottom as it enters the water. Default: none; boats slam.
+    pub slamming: Option<Slamming>,
     /// Default: none.
     pub engine: Option<Engine>,
     /// How it meets the bed and quays; `None` passes through. Default: [`Contact::default`].
@@ -132,6 +142,9 @@ impl BodyDesc {
             memory: false,
             tables: RadiationTables::default(),
             drag: Drag::default(),
+            skin: None,
+            windage: Windage::default(),
+            slamming: None,
             engine: None,
             contact: Some(Contact::default()),
             water_density: WATER_DENSITY,
@@ -158,7 +171,14 @@ impl BodyDesc {
         desc.estimate();
         let speed = if max_speed.is_finite() { max_speed.max(0.5) } else { 0.5 };
         let resistance = mass * GRAVITY / 6.0;
-        desc.drag.quadratic.x = (resistance / speed - desc.drag.linear.x).max(0.0) / speed;
+        let mut skin = Skin::new(length, draft, waterline.volume);
+        // A planing hull has lifted out of the water: friction is half of its resistance (Savitsky 1964).
+        let friction = skin.quadratic(speed, desc.water_density) * speed * speed;
+        skin.area *= (0.5 * resistance / friction).min(1.0);
+        let friction = skin.quadratic(speed, desc.water_density);
+        desc.drag.quadratic.x = ((resistance / speed - desc.drag.linear.x) / speed - friction).max(0.0);
+        desc.skin = Some(skin);
+        desc.slamming = Some(Slamming::estimate(&waterline));
         desc.drag.cross_flow.x = 0.3;
         // A planing hull turns on its skeg: the forebody hardly resists.
         desc.drag.angular_forward.y *= 0.15;
@@ -177,7 +197,7 @@ impl BodyDesc {
         desc
     }
 
-    /// Sets coefficients and drag again from hull, mass, centre of mass and inertia, after these were changed.
+    /// Sets coefficients, drag, skin and windage again from hull, mass, centre of mass and inertia, after these were changed.
     pub fn estimate(&mut self) {
         if !(self.mass > 0.0 && self.mass.is_finite() && self.water_density > 0.0) {
             return;
@@ -186,6 +206,8 @@ impl BodyDesc {
         let tensor = self.unit_inertia * self.mass;
         self.coefficients = Coefficients::estimate(&Afloat {
             waterline: &waterline,
+            strips: &self.hull.strips(self.displaced_volume()),
+            center: self.center_of_mass.x,
             heights: waterline.metacentric_heights(self.center_of_mass.y),
             mass: self.mass,
             inertia: Vec3::new(tensor.x_axis.x, tensor.y_axis.y, tensor.z_axis.z),
@@ -195,6 +217,9 @@ impl BodyDesc {
         });
         let (round, blunt) = (self.hull.is_sphere(), self.hull.is_blunt());
         self.drag = Drag::estimate(&waterline, self.mass, self.water_density, round, blunt);
+        let (low, high) = self.hull.bounds();
+        self.windage = Windage::estimate(&waterline, low, high, round, blunt);
+        self.skin = (!blunt).then(|| Skin::new(waterline.extent.x, waterline.draft, waterline.volume));
     }
 
     /// Volume in m^3 displaced at rest: mass over density, at most the hull's.
@@ -243,6 +268,9 @@ impl BodyDesc {
         check_all("drag.cross_flow", self.drag.cross_flow, 0.0, 1.0, "in [0, 1]")?;
         check_all("drag.lateral_center", self.drag.lateral_center, -1.0e4, 1.0e4, "within +-10000 m")?;
         self.contact.as_ref().map_or(Ok(()), Contact::check)?;
+        self.skin.as_ref().map_or(Ok(()), Skin::check)?;
+        self.windage.check()?;
+        self.slamming.as_ref().map_or(Ok(()), Slamming::check)?;
         self.tables.check()?;
         self.engine.as_ref().map_or(Ok(()), Engine::check)
     }

@@ -1,6 +1,7 @@
 //! The forces of Eq. 7 of the paper, one small function each, and the water they read.
 //!
-//! Moorings are in `mooring.rs`; contact and wind come in through `Controls::force`. There is no slamming and no planing lift.
+//! Moorings are in `mooring.rs`, contact in `contact.rs`, drag in `drag.rs`, friction in `skin.rs`, blows in `slam.rs`, wind in
+//! `wind.rs`, radiated waves in `coefficients.rs` and `radiation`. There is no planing lift.
 
 use glam::{Mat3, Vec2, Vec3};
 
@@ -187,17 +188,16 @@ pub(crate) fn immerse(points: &[ForcePoint], waters: &[LocalWater], pose: &Pose,
         turning += p.position.cross(flow) * volume;
         arm += Vec3::splat(p.position.length_squared()) * volume - p.position * p.position * volume;
         place += p.position * volume;
-        stream += flow * volume;
+        stream += up * Vec3::new(water.velocity.x, pose.velocity.y, water.velocity.z) * volume;
     }
     if w.volume > 0.0 {
         w.velocity /= w.volume;
         w.acceleration /= w.volume;
         w.slope /= w.volume;
-        // About the centre of what is immersed: a uniform stream does not turn.
+        // A uniform stream does not turn; water that rises under a bow does.
         let floor = Vec3::splat(1.0e-3 * 0.5 * (arm.x + arm.y + arm.z) + 1.0e-6 * w.volume);
-        let about = Vec3::splat(place.length_squared()) - place * place;
         turning -= place.cross(stream) / w.volume;
-        w.spin = (turning / (arm - about / w.volume).max(floor)).clamp_length_max(20.0);
+        w.spin = (turning / arm.max(floor)).clamp_length_max(20.0);
     }
     w
 }

@@ -36,12 +36,16 @@ mod files;
 mod fleet;
 mod forces;
 mod hull;
+mod lewis;
 mod mooring;
 mod point;
 mod radiation;
 mod rotation;
+mod skin;
+mod slam;
 mod source;
 mod water;
+mod wind;
 
 pub use body::{Body, BodyState, Explanation, Load, LoadKind, Wrench};
 pub use coefficients::Coefficients;
@@ -55,8 +59,11 @@ pub use hull::{Clip, Clipper, Closure, Hull, HullKind, Push, TriMesh, Waterline}
 pub use mooring::MooringLine;
 pub use point::{ForcePoint, PointShape};
 pub use radiation::{Imprint, RadiationTable, RadiationTables, TextureKernel, Textures};
+pub use skin::Skin;
+pub use slam::Slamming;
 pub use source::Displacement;
 pub use water::{AiryWave, FlatWater, Home, SurfacePatch, SurfaceSample, Touch, WaterSurface};
+pub use wind::Windage;
 
 /// Gravity in m/s^2.
 pub const GRAVITY: f32 = 9.81;

@@ -9,6 +9,7 @@ use crate::drag::implicit;
 use crate::forces::{Pose, Wetness, gravity, immerse, read_patch, read_points, resistance_axes};
 use crate::rotation::{matrix, tumble, turned};
 use crate::source::Displacement;
+use crate::wind::believed;
 use crate::{Controls, Home, WaterSurface};
 
 impl Body {
@@ -36,6 +37,7 @@ impl Body {
             let world = pose.position + pose.rotation * spot;
             *at = Vec2::new(world.x, world.z);
         }
+        self.wind = believed(water.wind()) * self.lull;
         match self.desc.sampling {
             Sampling::Points => {
                 read_points(water, &self.at, &self.points, &mut self.samples, &mut self.waters);
@@ -51,6 +53,10 @@ impl Body {
     fn wetness(&mut self, pose: &Pose) -> Wetness {
         let mut wet = immerse(&self.points, &self.waters, pose, self.feels_own, self.desc.water_density);
         self.clip(&mut wet, pose);
+        if self.desc.sampling == Sampling::Patch {
+            // One flow does not turn.
+            wet.spin = Vec3::ZERO;
+        }
         wet
     }
 
@@ -86,6 +92,9 @@ impl Body {
         if !self.moorings.is_empty() {
             self.pull(dt, part, &pose, &mobility);
         }
+        if self.slam.is_some() {
+            self.slam(&pose, &mobility);
+        }
         let desc = &self.desc;
         let velocity = to_axes * self.state.velocity;
 
@@ -96,19 +105,33 @@ impl Body {
         // What the sub-steps cannot resolve is held back as an implicit step would. Nothing holds what falls.
         let stiff = |k: f32| 1.0 + (k * dt * dt - FINEST * FINEST).max(0.0);
         let held = if wet.volume > 0.0 { [stiff(self.stiffness.x), stiff(self.stiffness.y)] } else { [1.0; 2] };
-        let pushed = velocity + drive / (whole * held[0]) * dt - water;
+        let mut pushed = velocity + drive / (whole * held[0]) * dt - water;
         // A bottom that is wet is wet, however deep; sides are wet as far as they are immersed.
         let sides = Vec3::new(share, share.min(1.0), share);
-        let linear = desc.drag.linear * share + coefficients.damping * (share * radiating);
-        let slowed = implicit(pushed, linear, desc.drag.quadratic_rates(pushed) * sides, whole, dt);
-        let lateral = desc.drag.lateral_center - desc.center_of_mass;
-        let sideways = sideways(slowed.z, pushed.z, whole.z, lateral, &inertia) / dt;
+        let mut linear = desc.drag.linear * share + coefficients.damping * (share * radiating);
+        let blows = self.wind != Vec3::ZERO;
+        let (wind, rates) = if blows { self.windage(to_axes, velocity, wet.volume) } else { Default::default() };
+        if blows {
+            pushed += rates / whole * (wind - water) * dt;
+            linear += rates;
+        }
+        let mut quadratic = desc.drag.quadratic_rates(pushed) * sides;
+        if let Some(skin) = &desc.skin {
+            quadratic.x += skin.quadratic(pushed.x, desc.water_density) * pushed.x.abs() * sides.x;
+        }
+        let slowed = implicit(pushed, linear, quadratic, whole, dt);
         self.state.velocity = axes * (slowed + water);
+        // What the wind pushes does not attack where the water resists.
+        let blown = rates * (wind - water - slowed);
+        let resisted = slowed.z + rates.z * slowed.z * dt / whole.z;
+        let lateral = desc.drag.lateral_center - desc.center_of_mass;
+        let sideways = sideways(resisted, pushed.z, whole.z, lateral, &inertia) / dt;
 
         let torque = to_body * (wet.torque + controls.torque)
             + self.texture_torque(push)
             + engine_torque
-            + lateral.cross(to_body * axes.z_axis * sideways);
+            + lateral.cross(to_body * axes.z_axis * sideways)
+            + (desc.windage.center - desc.center_of_mass).cross(to_body * (axes * blown));
         let turning = start * self.state.angular_velocity + mobility.inverse * torque * (dt / held[1]);
         let spin = turning - wet.spin;
         let linear = (desc.drag.angular_linear + desc.drag.angular_forward * slowed.length()) * share
@@ -128,6 +151,13 @@ impl Body {
         let change = self.state.velocity - before;
         self.state.position += (self.state.velocity - change * scheme.late) * dt;
         self.immersed = wet.volume;
+    }
+
+    /// The wind along the axes, and its decay rates (N s/m): by how much of the hull is dry.
+    fn windage(&self, to_axes: Mat3, velocity: Vec3, wet: f32) -> (Vec3, Vec3) {
+        let wind = to_axes * self.wind;
+        let dry = (0.5 * (self.volume - wet) * self.sheds).clamp(0.0, 100.0);
+        (wind, self.desc.windage.rates(wind - velocity) * dry)
     }
 
     /// Thrust and rudder in hull axes, and their torque about the centre of mass.

@@ -41,13 +41,13 @@ struct Press {
 
 /// Velocity and rotation, world axes.
 #[derive(Clone, Copy)]
-struct Motion {
-    velocity: Vec3,
-    spin: Vec3,
+pub(super) struct Motion {
+    pub(super) velocity: Vec3,
+    pub(super) spin: Vec3,
 }
 
 impl Motion {
-    fn at(&self, arm: Vec3) -> Vec3 {
+    pub(super) fn at(&self, arm: Vec3) -> Vec3 {
         self.velocity + self.spin.cross(arm)
     }
 
@@ -65,7 +65,8 @@ impl Motion {
 }
 
 impl Mobility {
-    fn change(&self, impulse: Vec3, arm: Vec3, rotation: Mat3) -> Motion {
+    /// What an impulse at `arm` changes.
+    pub(super) fn change(&self, impulse: Vec3, arm: Vec3, rotation: Mat3) -> Motion {
         let velocity = self.axes * ((self.axes.transpose() * impulse) / self.whole);
         Motion { velocity, spin: rotation * (self.inverse * (rotation.transpose() * arm.cross(impulse))) }
     }

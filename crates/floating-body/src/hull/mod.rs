@@ -24,6 +24,7 @@ use self::spans::Span;
 pub use self::topology::Closure;
 pub use self::waterline::Waterline;
 use crate::error::check_range;
+use crate::lewis::Strip;
 use crate::{BodyError, ForcePoint};
 
 /// A triangle mesh in the hull's frame: vertices in m, three indices per triangle. May be unwelded.
@@ -222,6 +223,17 @@ impl Hull {
     /// Where the hull floats upright when it displaces `volume` m^3; wholly immersed if it cannot.
     pub fn waterline(&self, volume: f32) -> Waterline {
         waterline::waterline(&self.0.spans, f64::from(volume))
+    }
+
+    /// Cross-sections of a mesh that displaces `volume` m^3; none of a closed shape.
+    pub(crate) fn strips(&self, volume: f32) -> Vec<Strip> {
+        match self.0.made {
+            Made::Mesh(_) => {
+                let level = waterline::level_for(&self.0.spans, f64::from(volume));
+                spans::strips(&self.0.spans, level)
+            }
+            Made::Shape(_) => Vec::new(),
+        }
     }
 
     /// About `count` force points for a body that displaces `volume` m^3 afloat: columns for a mesh, pieces for closed

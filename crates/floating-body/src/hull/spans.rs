@@ -5,6 +5,7 @@
 use glam::{DVec2, DVec3};
 
 use super::topology::Surface;
+use crate::lewis::Strip;
 
 /// Rays along x and z.
 pub(crate) const RAYS: [usize; 2] = [96, 48];
@@ -31,6 +32,29 @@ impl Span {
     pub(crate) fn volume(&self) -> f64 {
         self.area * (self.top - self.bottom)
     }
+}
+
+/// The cross-sections below `level`, one a row of rays.
+pub(crate) fn strips(spans: &[Span], level: f64) -> Vec<Strip> {
+    let mut strips = vec![Strip::default(); RAYS[0]];
+    let places: Vec<f64> = spans.iter().map(|s| s.at.x).collect();
+    let (low, high) = places.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
+    let rows = spans.iter().map(|s| s.ray[0]).fold((usize::MAX, 0), |(l, h), i| (l.min(i), h.max(i)));
+    let count = rows.1.saturating_sub(rows.0);
+    if count == 0 {
+        return Vec::new();
+    }
+    let length = (high - low) / count as f64;
+    for s in spans.iter().filter(|s| s.wet(level) > 0.0) {
+        let strip = &mut strips[s.ray[0]];
+        let width = s.area / length;
+        (strip.x, strip.length) = (s.at.x as f32, length as f32);
+        strip.beam += if s.top >= level { width as f32 } else { 0.0 };
+        strip.draft = strip.draft.max((level - s.bottom) as f32);
+        strip.area += (width * s.wet(level)) as f32;
+    }
+    strips.retain(|s| s.area > 0.0);
+    strips
 }
 
 /// Spans of a solid given by its stretches at each ray, scaled so that they sum to `volume`.
