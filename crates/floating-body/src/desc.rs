@@ -108,8 +108,8 @@ pub struct BodyDesc {
     pub tables: RadiationTables,
     /// Water friction and form drag.
     pub drag: Drag,
-    /// Skin friction along the hull. Default: none for closed shapes, whose form drag hides it; by the waterline's
-    /// dimensions for meshes.
+    /// Skin friction along the hull. Default: by the waterline's dimensions for meshes of 2.5 m and more; none for what is
+    /// smaller and for closed shapes, whose form drag hides it.
     pub skin: Option<Skin>,
     /// What the wind finds. Default: the hull's box over the water.
     pub windage: Windage,
@@ -219,7 +219,8 @@ impl BodyDesc {
         self.drag = Drag::estimate(&waterline, self.mass, self.water_density, round, blunt);
         let (low, high) = self.hull.bounds();
         self.windage = Windage::estimate(&waterline, low, high, round, blunt);
-        self.skin = (!blunt).then(|| Skin::new(waterline.extent.x, waterline.draft, waterline.volume));
+        self.skin = (!blunt && (high - low).max_element() >= PATCH_LENGTH)
+            .then(|| Skin::new(waterline.extent.x, waterline.draft, waterline.volume));
     }
 
     /// Volume in m^3 displaced at rest: mass over density, at most the hull's.

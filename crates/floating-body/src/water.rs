@@ -119,10 +119,6 @@ pub trait WaterSurface: Sync {
     fn is_calm(&self, _low: Vec2, _high: Vec2) -> bool {
         false
     }
-    /// Velocity of the wind in m/s, 10 m over the water.
-    fn wind(&self) -> Vec3 {
-        Vec3::ZERO
-    }
     /// What is solid at `points`; both slices have the same length. Returns whether anything is touched.
     fn touch(&self, _points: &[Vec3], _out: &mut [Touch]) -> bool {
         false

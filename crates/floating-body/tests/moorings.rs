@@ -51,6 +51,7 @@ fn a_taut_line_holds_what_the_current_pulls() {
     let drag = 800.0;
     let mut desc = body.desc().clone();
     desc.drag = Drag { linear: Vec3::splat(drag), angular_linear: Vec3::splat(5000.0), ..Drag::default() };
+    desc.skin = None;
     body = Body::new(desc).unwrap();
     // Level with the centre of mass, so that it pulls along x.
     let mut rope = line(6.0, 2.0e4);

@@ -12,7 +12,7 @@ slotmap::new_key_type! {
 /// What a fleet is to be made of.
 #[derive(Clone, Debug)]
 pub struct FleetDesc {
-    /// Every piece. It must have no engine, no memory and quality by points; [`BodyDesc::sampling`] is always a patch.
+    /// Every piece. It must have no engine, memory, skin or slamming, and quality by points; [`BodyDesc::sampling`] is always a patch.
     pub body: BodyDesc,
     /// Ticks from one reading of the water under a piece to the next, 1 to 16: meanwhile its plane is carried on with its
     /// velocity and acceleration. Default 4.
@@ -42,6 +42,14 @@ impl FleetDesc {
         if self.body.memory {
             let bound = "false: pieces of a fleet do not remember their waves, a body of its own does";
             return Err(BodyError::InvalidValue { field: "body.memory", value: 1.0, bound });
+        }
+        if self.body.slamming.is_some() {
+            let bound = "none: pieces of a fleet do not slam, a body of its own does";
+            return Err(BodyError::InvalidValue { field: "body.slamming", value: 1.0, bound });
+        }
+        if self.body.skin.is_some() {
+            let bound = "none: pieces of a fleet have form drag only, a body of its own has friction too";
+            return Err(BodyError::InvalidValue { field: "body.skin", value: 1.0, bound });
         }
         if self.body.quality != Quality::Points {
             let bound = "Points: pieces of a fleet are not clipped, a body of its own is";
