@@ -1,6 +1,7 @@
-//! Case `heave_decay`: a body released over its rest, radiating into a dispersive grid.
+//! Cases `heave_decay`: a body released over its rest, radiating into a dispersive grid; `grid_on_off`: the same without
+//! the grid.
 
-use floating_body::{BodyDesc, Drag, Hull, Radiation, RadiationTable};
+use floating_body::{Body, BodyDesc, Controls, Drag, FlatWater, Hull, Radiation, RadiationTable};
 use glam::Vec3;
 use open_water::{BodyState, BodyStates, Follow, GridDesc, OpenWater, OpenWaterDesc, Preset, Scheme};
 use wave_grid::Border;
@@ -16,6 +17,14 @@ pub(super) const HEAVE: Case = Case {
     about: "heave decay of bodies that radiate into a dispersive grid, against linear theory with memory",
     plots: &[],
     run: heave,
+};
+
+/// See the module.
+pub(super) const ON_OFF: Case = Case {
+    name: "grid_on_off",
+    about: "heave decay with the home grid on against the same body without it",
+    plots: &[],
+    run: on_off,
 };
 
 const DENSITY: f64 = 1000.0;
@@ -59,7 +68,7 @@ fn heave(context: &Context) -> Result<Vec<Row>, CaseError> {
             if context.pick(rate == 120 && float.radiation == "estimated", false) {
                 continue;
             }
-            let found = released(&float, cell, rate)?;
+            let found = released(&float, Scheme::Dispersive, cell, rate)?;
             let times: Vec<f64> = (0..found.len()).map(|i| i as f64 / f64::from(rate)).collect();
             let theory = float.theory.decay(float.mass, DENSITY * G * float.area, &times);
             let square: f64 = found.iter().zip(&theory).map(|(a, b)| (a - b) * (a - b)).sum();
@@ -76,22 +85,71 @@ fn heave(context: &Context) -> Result<Vec<Row>, CaseError> {
     Ok(rows)
 }
 
-/// Height over rest after each tick, as a share of the release.
-fn released(float: &Float, cell: f32, rate: u32) -> Result<Vec<f64>, CaseError> {
-    let mut desc = OpenWaterDesc { tick: 1.0 / rate as f32, ..Preset::Low.water() };
-    desc.sea.partitions.clear();
-    let mut water = OpenWater::headless(desc)?;
+/// Without drag, which theory has not.
+fn described(float: &Float) -> BodyDesc {
     let mut body = BodyDesc::from_hull(&float.hull, float.mass as f32);
     body.water_density = DENSITY as f32;
     body.estimate();
-    (body.drag, body.radiation) = (Drag::default(), Radiation::Grid);
+    body.drag = Drag::default();
     body.tables.heave = float.table.clone();
-    let body = water.add_body(body)?;
+    body
+}
+
+/// By its coefficients, no grid.
+fn alone(float: &Float, memory: bool, rate: u32) -> Result<Vec<f64>, CaseError> {
+    let mut body = Body::new(BodyDesc { memory, ..described(float) })?;
+    let rest = body.rest_height();
+    body.set_state(BodyState::at_rest(Vec3::Y * (rest + RELEASE)));
+    let mut found = vec![1.0];
+    while (found.len() as f64) < LONG * f64::from(rate) {
+        body.step(1.0 / rate as f32, &FlatWater::default(), &Controls::default());
+        found.push(f64::from(body.state().position.y - rest) / f64::from(RELEASE));
+    }
+    Ok(found)
+}
+
+fn on_off(context: &Context) -> Result<Vec<Row>, CaseError> {
+    const RATE: u32 = 60;
+    let mut rows = Vec::new();
+    for float in floats()?.into_iter().filter(|float| float.radiation != "estimated") {
+        let cell = context.pick(1.0, 0.5);
+        for (scheme, name) in [(Scheme::Dispersive, "dispersive"), (Scheme::NinePoint, "wave equation")] {
+            let on = released(&float, scheme, cell, RATE)?;
+            for memory in [false, true] {
+                let off = alone(&float, memory, RATE)?;
+                let square: f64 = on.iter().zip(&off).map(|(a, b)| (a - b) * (a - b)).sum();
+                let error = 100.0 * (square / on.len() as f64).sqrt();
+                let row = Row::new("grid_on_off", float.name)
+                    .param("grid", name)
+                    .param("off", if memory { "memory" } else { "constant coefficients" })
+                    .param("cell", f64::from(cell))
+                    .error(error, "% of the release", "the same body without a grid; RMS over 12 s");
+                rows.push(if scheme == Scheme::Dispersive {
+                    row.bound(10.0)
+                } else {
+                    row.note(
+                        "no bound: all its waves have one speed, here that of the body's own; added mass is the grid's",
+                    )
+                });
+            }
+        }
+    }
+    Ok(rows)
+}
+
+/// Height over rest after each tick, as a share of the release.
+fn released(float: &Float, scheme: Scheme, cell: f32, rate: u32) -> Result<Vec<f64>, CaseError> {
+    let mut desc = OpenWaterDesc { tick: 1.0 / rate as f32, ..Preset::Low.water() };
+    desc.sea.partitions.clear();
+    let mut water = OpenWater::headless(desc)?;
+    let body = water.add_body(BodyDesc { radiation: Radiation::Grid, ..described(float) })?;
     water.add_grid(GridDesc {
         follow: Follow::Body(body),
         cells: [(112.0 / cell) as u32; 2],
         cell_size: [cell; 2],
-        scheme: Scheme::Dispersive,
+        scheme,
+        // That of waves of 4.3 s, which is about the periods of these bodies.
+        wave_speed: 6.7,
         border: Border::Absorbing { width: 16 },
         ..GridDesc::default()
     })?;

@@ -2,6 +2,8 @@
 
 mod body_float;
 mod body_flow;
+mod body_forces;
+mod body_slam;
 mod body_swing;
 mod dispersion;
 mod dispersive_border;
@@ -126,12 +128,18 @@ pub const CASES: &[Case] = &[
     body_flow::RESPONSE,
     body_flow::TERMINAL,
     body_flow::CURRENT,
+    body_forces::SKIN,
+    body_slam::SLAM,
+    body_forces::WIND,
+    body_forces::SLOPE,
+    body_forces::ADDED_MASS,
     fleet_gpu::FLEET,
     fleet_water::AGAINST_BODY,
     fleet_water::REFRESH,
     fleet_idle::ASLEEP,
     fleet_idle::RIDING,
     heave_decay::HEAVE,
+    heave_decay::ON_OFF,
     sinkage::SINKAGE,
     rapier::DRAFT,
     rapier::VS_OWN,

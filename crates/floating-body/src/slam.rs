@@ -69,7 +69,6 @@ impl Slam {
     pub(crate) fn new(slamming: &Slamming, points: &[ForcePoint], w: &Waterline, finite: f32, density: f32) -> Self {
         let beam_along_z = w.extent.x >= w.extent.y;
         let across = |v: Vec3| if beam_along_z { v.z } else { v.x };
-        let along = |v: Vec3| if beam_along_z { v.x } else { v.z };
         let bottom = |p: &ForcePoint| p.position.y - p.half.y;
         let volume: f32 = points.iter().map(|p| p.volume).sum();
         let middle = points.iter().map(|p| across(p.position) * p.volume).sum::<f32>() / volume;
@@ -88,8 +87,9 @@ impl Slam {
         let bottoms =
             points.iter().enumerate().filter(|(_, p)| !points.iter().any(|q| over(p, q))).map(|(point, p)| {
                 let out = out(p);
-                let mass =
-                    FRAC_PI_2 * density * 2.0 * across(p.half) * out * 2.0 * along(p.half) * blunt * blunt * finite;
+                // A column's own area: few rays make its extents too small.
+                let area = p.volume / (2.0 * p.half.y);
+                let mass = FRAC_PI_2 * density * out * area * blunt * blunt * finite;
                 let range = 2.0 * across(p.half) * slope;
                 let ahead = (pile_up - 1.0) * (bottom(p) - keel).min(out * slope) + 0.5 * range;
                 Catch { point, mass, ahead, range, wet: 1.0 }
