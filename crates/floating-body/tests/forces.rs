@@ -122,7 +122,7 @@ fn a_wedge_s_fall_is_broken_as_by_the_water_that_it_catches() {
     for degrees in [10.0_f32, 20.0, 30.0] {
         let deadrise = degrees.to_radians();
         let hull = wedge(deadrise);
-        let mut desc = BodyDesc::from_hull(&hull, 100e3);
+        let mut desc = BodyDesc::from_hull(&hull, 1e6);
         (desc.drag, desc.coefficients, desc.skin) = (Drag::default(), Coefficients::default(), None);
         desc.points = ForcePoints::Count(256);
         desc.slamming = Some(Slamming { deadrise });
@@ -151,16 +151,16 @@ fn a_wedge_s_fall_is_broken_as_by_the_water_that_it_catches() {
             if width > 0.15 {
                 let caught = rho * FRAC_PI_2 * width * width * blunt * finite * 10.0;
                 // But for its weight; buoyancy hardly counts at 10 m/s.
-                let expected = 10.0 * 100e3 / (100e3 + caught);
+                let expected = 10.0 * 1e6 / (1e6 + caught);
                 let lost = 10.0 + f64::from(body.state().velocity.y) + fell;
                 worst = worst.max((lost - (10.0 - expected)).abs());
             }
         }
         let caught = rho * FRAC_PI_2 * blunt * finite * 10.0;
-        let whole = 10.0 * caught / (100e3 + caught);
+        let whole = 10.0 * caught / (1e6 + caught);
         let lost = (10.0 + f64::from(body.state().velocity.y) + fell) / whole;
         assert!(worst < 0.1 * whole, "{degrees} degrees: {worst} m/s of {whole} on the way");
-        assert!((lost - 1.0).abs() < 0.06, "{degrees} degrees: {lost} of the whole blow");
+        assert!((lost - 1.0).abs() < 0.08, "{degrees} degrees: {lost} of the whole blow");
     }
 }
 
