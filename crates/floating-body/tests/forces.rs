@@ -59,7 +59,7 @@ fn light_things_are_blown_along_at_any_step() {
             body.step(dt, &Windy(Vec3::new(20.0, 0.0, 0.0)), &Controls::default());
         }
         let speed = body.state().velocity.x;
-        assert!(speed > 3.0 && speed < 20.0, "{dt}: {speed}");
+        assert!(speed > 0.5 && speed < 20.0, "{dt}: {speed}");
     }
 }
 
