@@ -178,7 +178,8 @@ impl BodyDesc {
         let friction = skin.quadratic(speed, desc.water_density);
         desc.drag.quadratic.x = ((resistance / speed - desc.drag.linear.x) / speed - friction).max(0.0);
         desc.skin = Some(skin);
-        desc.slamming = Some(Slamming::estimate(&waterline));
+        // A box has no bottom to speak of: its blow would be one of a single tick.
+        desc.slamming = (!hull.is_blunt()).then(|| Slamming::estimate(&waterline));
         desc.drag.cross_flow.x = 0.3;
         // A planing hull turns on its skeg: the forebody hardly resists.
         desc.drag.angular_forward.y *= 0.15;

@@ -188,6 +188,7 @@ fn anchored(holds: f32, current: f32) -> (Body, Vec<f32>) {
     let mut body = boat();
     let mut desc = body.desc().clone();
     desc.drag = Drag { linear: Vec3::splat(800.0), angular_linear: Vec3::splat(5000.0), ..Drag::default() };
+    desc.skin = None;
     body = Body::new(desc).unwrap();
     let rest = body.state().position.y;
     let point = Vec3::new(2.8, body.desc().center_of_mass.y, 0.0);
