@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use open_water::{BodyDesc, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, OpenWater, Pose, Scheme, Tick};
 use open_water_examples::{
-    Dice, Flotsam, Helm, Launch, Mark, NoMore, Options, Scene, SceneError, Setup, Subject, boat_mesh, run, run_up,
+    Dice, Flotsam, Helm, Launch, Mark, NoMore, Options, Scene, SceneError, Setup, Stroke, Subject, boat_mesh, run,
+    run_up,
 };
 use water_view::{DryHull, Instance, MeshId, MeshView};
 
@@ -183,6 +184,10 @@ impl Scene for Boat {
         self.flotsam.marks(|body| self.water.drawn_pose(body), &mut marks);
         marks.extend(self.water.drawn_pose(self.boat.body).map(|pose| self.boat.mark(pose)));
         marks
+    }
+
+    fn strokes(&self) -> Vec<Stroke> {
+        self.boat.strokes(&self.water)
     }
 
     fn status(&self) -> String {

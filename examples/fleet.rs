@@ -11,7 +11,7 @@ use open_water::{
     Tick, Wake, WakesDesc,
 };
 use open_water_examples::{
-    Course, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, run, run_up,
+    Course, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Stroke, Subject, Viewpoint, boat_mesh, run, run_up,
 };
 use water_view::{Camera, DryHull, Instance, MeshId, MeshView};
 
@@ -250,6 +250,10 @@ impl Scene for Fleet {
 
     fn marks(&self) -> Vec<Mark> {
         self.boats.iter().filter_map(|boat| Some(boat.mark(self.pose(boat)?))).collect()
+    }
+
+    fn strokes(&self) -> Vec<Stroke> {
+        self.boats.iter().flat_map(|boat| boat.strokes(&self.water)).collect()
     }
 
     fn status(&self) -> String {

@@ -13,6 +13,7 @@ use crate::draw::Painter;
 use crate::font;
 use crate::options::Setup;
 use crate::scene::advance;
+use crate::strokes;
 use crate::timing::Timing;
 use crate::topview::TopView;
 use crate::{Helm, Options, Pick, Scene, SceneError};
@@ -66,6 +67,7 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Resu
             return Err(SceneError::NotFinite("the boat", scene.water().time()));
         }
         let began = Instant::now();
+        let strokes = if options.explain { scene.strokes() } else { Vec::new() };
         let mut picture = match (&mut target, &pick) {
             (Target::Gpu { painter, capture }, Pick::Gpu(gpu)) => {
                 let camera = rig.look(&scene, size, FRAME);
@@ -73,9 +75,11 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Resu
                 let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
                 let plan = painter.record(gpu, &mut scene, &camera, &capture.view, &mut encoder);
                 log.plan = plan.to_string();
-                capture.take(gpu, encoder)?
+                let mut picture = capture.take(gpu, encoder)?;
+                strokes::ink(&mut picture, &strokes, strokes::seen(&camera, size));
+                picture
             }
-            (Target::Cpu(view), _) => view.draw(&mut scene),
+            (Target::Cpu(view), _) => view.draw(&mut scene, &strokes),
             (Target::Gpu { .. }, Pick::Cpu) => break,
         };
         if S::LABELLED {

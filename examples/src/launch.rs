@@ -4,6 +4,7 @@ use glam::{Affine3A, DVec2, Vec2, Vec3};
 use open_water::{BodyId, GridId, OpenWater, Pose};
 use water_view::DryHull;
 
+use crate::strokes::{Stroke, sketch};
 use crate::{Mark, Subject};
 
 /// A boat as scenes draw it and as cameras follow it.
@@ -53,6 +54,12 @@ impl Launch {
     /// Foam of its wake at a place, 0 to 1.
     pub fn foam(&self, water: &OpenWater, at: Vec2) -> f32 {
         [self.wake, self.far].into_iter().zip(&self.cells).map(|(grid, cells)| foam(water, grid, cells, at)).sum()
+    }
+
+    /// What acts on it, as the last tick left it.
+    pub fn strokes(&self, water: &OpenWater) -> Vec<Stroke> {
+        let length = 0.5 * (self.bounds.1.x - self.bounds.0.x);
+        water.explain(self.body).map_or(Vec::new(), |told| sketch(&told, length))
     }
 
     /// Its outline from above at `pose`.

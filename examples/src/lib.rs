@@ -17,6 +17,7 @@ mod options;
 mod overlay;
 mod props;
 mod scene;
+mod strokes;
 mod timing;
 mod topview;
 mod window;
@@ -33,6 +34,7 @@ pub mod wedge;
 
 pub use props::{barrel, boat_mesh, crate_box, hull_mesh};
 pub use scene::{Helm, Mark, NoMore, Scene, Subject, Viewpoint, run_up};
+pub use strokes::Stroke;
 
 use std::process::ExitCode;
 

@@ -34,7 +34,7 @@ pub enum Quality {
 /// What the help of every scene says after what the scene shows.
 pub(crate) const KEYS: &str = "With a display it opens a window; without one, or with --frames or --out, it writes \
      numbered PNGs and a summary.\nKeys: W/S or up/down throttle, A/D or left/right steer, P autopilot, C next camera \
-     (drag and wheel: circle the boat), space pause, O overlay, Esc quit.";
+     (drag and wheel: circle the boat), space pause, O overlay, E forces on the boat, Esc quit.";
 
 /// The options that all scenes share.
 #[derive(Debug, Clone, Parser)]
@@ -66,6 +66,9 @@ pub struct Options {
     /// Seconds of the scene run before the first picture, 0 to 600 [default: as the scene needs]
     #[arg(long, value_name = "S", value_parser = parse_lead)]
     pub lead: Option<f32>,
+    /// Draw the boat's waterline and the forces on it
+    #[arg(long)]
+    pub explain: bool,
     /// Chooses the phases of the waves and where the flotsam lies
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,

@@ -1,9 +1,11 @@
-//! Text over the picture: the frame's plan and timings.
+//! Text and lines over the picture: the frame's plan and timings, the forces on a boat.
 
 use open_water_shaders::pipeline::{Slot, bind_group, group_layout, pipeline_layout};
 
-use crate::Gpu;
-use crate::font;
+use water_view::Camera;
+
+use crate::strokes::{self, Stroke};
+use crate::{Gpu, font};
 
 /// Pixels per dot of a glyph.
 const DOT: f32 = 2.0;
@@ -16,7 +18,7 @@ pub(crate) struct Overlay {
     group: wgpu::BindGroup,
     screen: wgpu::Buffer,
     dots: wgpu::Buffer,
-    list: Vec<[f32; 6]>,
+    list: Vec<[f32; 8]>,
 }
 
 impl Overlay {
@@ -36,7 +38,7 @@ impl Overlay {
             })
         };
         let screen = buffer(16, wgpu::BufferUsages::UNIFORM);
-        let dots = buffer((MAX_DOTS * size_of::<[f32; 6]>()) as u64, wgpu::BufferUsages::VERTEX);
+        let dots = buffer((MAX_DOTS * size_of::<[f32; 8]>()) as u64, wgpu::BufferUsages::VERTEX);
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("overlay"),
             layout: Some(&pipeline_layout(device, "overlay", &[&layout])),
@@ -45,9 +47,9 @@ impl Overlay {
                 entry_point: Some("overlay_vertex"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers: &[Some(wgpu::VertexBufferLayout {
-                    array_stride: size_of::<[f32; 6]>() as u64,
+                    array_stride: size_of::<[f32; 8]>() as u64,
                     step_mode: wgpu::VertexStepMode::Instance,
-                    attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x2],
+                    attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4],
                 })],
             },
             primitive: wgpu::PrimitiveState {
@@ -73,24 +75,34 @@ impl Overlay {
         Self { pipeline, group, screen, dots, list: Vec::new() }
     }
 
-    /// Draws `text` over `target`, on a dark panel so that it reads on any water.
+    /// Draws `text` over `target`, on a dark panel so that it reads on any water, and `strokes` as `camera` sees them.
     pub(crate) fn draw(
         &mut self,
         gpu: &Gpu,
         text: &str,
+        (strokes, camera): (&[Stroke], &Camera),
         size: [u32; 2],
         target: &wgpu::TextureView,
         encoder: &mut wgpu::CommandEncoder,
     ) {
         self.list.clear();
-        let columns = text.lines().map(|line| line.chars().count()).max().unwrap_or(0) * font::ADVANCE;
-        let rows = text.lines().count() * font::LINE;
-        let panel = |dots: usize| DOT * dots as f32 + MARGIN;
-        self.list.push([0.5 * MARGIN, 0.5 * MARGIN, panel(columns), panel(rows), 0.0, 0.55]);
-        font::dots(text, |x, y| {
-            let at = |v: usize| MARGIN + DOT * v as f32;
-            self.list.push([at(x), at(y), DOT, DOT, 0.85, 1.0]);
+        let list = &mut self.list;
+        strokes::dots(strokes, size, strokes::seen(camera, size), |at, color| {
+            let [r, g, b] = color.map(|c| f32::from(c) / 255.0);
+            list.push([at.x, at.y, strokes::DOT, strokes::DOT, r, g, b, 1.0]);
         });
+        // Words stay whatever the lines need.
+        list.truncate(MAX_DOTS / 2);
+        if !text.is_empty() {
+            let columns = text.lines().map(|line| line.chars().count()).max().unwrap_or(0) * font::ADVANCE;
+            let rows = text.lines().count() * font::LINE;
+            let panel = |dots: usize| DOT * dots as f32 + MARGIN;
+            list.push([0.5 * MARGIN, 0.5 * MARGIN, panel(columns), panel(rows), 0.0, 0.0, 0.0, 0.55]);
+            font::dots(text, |x, y| {
+                let at = |v: usize| MARGIN + DOT * v as f32;
+                list.push([at(x), at(y), DOT, DOT, 0.85, 0.85, 0.85, 1.0]);
+            });
+        }
         self.list.truncate(MAX_DOTS);
         let screen = [size[0] as f32, size[1] as f32, 0.0, 0.0];
         gpu.queue.write_buffer(&self.screen, 0, bytemuck::cast_slice(&screen));

@@ -6,6 +6,7 @@ use water_view::{Camera, DryHull, MeshView, WaterLook};
 
 use crate::SceneError;
 use crate::options::{Options, Setup};
+use crate::strokes::Stroke;
 
 /// What the player asks for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -168,6 +169,11 @@ pub trait Scene: Sized + 'static {
 
     /// Foam of the wake at a place, 0 to 1, for the view from above.
     fn foam(&self, at: Vec2) -> f32;
+
+    /// The forces on its boat, for when they are asked for.
+    fn strokes(&self) -> Vec<Stroke> {
+        Vec::new()
+    }
 
     /// Lines for the overlay.
     fn status(&self) -> String;

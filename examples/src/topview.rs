@@ -4,6 +4,7 @@ use glam::{Vec2, Vec3};
 use image::{Rgba, RgbaImage};
 use open_water::WaterSample;
 
+use crate::strokes::{self, Stroke};
 use crate::{Mark, Scene};
 
 /// Pixels between samples of the water.
@@ -22,7 +23,7 @@ impl TopView {
     }
 
     /// The scene from above, the part it shows; x is right, z is down.
-    pub(crate) fn draw<S: Scene>(&mut self, scene: &mut S) -> RgbaImage {
+    pub(crate) fn draw<S: Scene>(&mut self, scene: &mut S, strokes: &[Stroke]) -> RgbaImage {
         scene.look_down();
         let [width, height] = self.size;
         let (center, across) = scene.map();
@@ -73,6 +74,7 @@ impl TopView {
         for mark in scene.marks() {
             fill(&mut picture, &mark, corner, scale);
         }
+        strokes::ink(&mut picture, strokes, |p| Some((Vec2::new(p.x, p.z) - corner) / scale));
         picture
     }
 }

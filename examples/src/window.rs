@@ -50,6 +50,7 @@ struct Input {
     autopilot: bool,
     paused: bool,
     hidden: bool,
+    explained: bool,
     dragging: bool,
     /// The digit typed since the last frame.
     chosen: Option<u32>,
@@ -171,16 +172,21 @@ impl<S: Scene> Live<S> {
         self.scene.seen(&camera);
         let plan = self.painter.record(&self.gpu, &mut self.scene, &camera, &view, &mut encoder);
         self.plan = plan.to_string();
-        if !input.hidden {
-            let text = format!(
+        let text = if input.hidden {
+            String::new()
+        } else {
+            format!(
                 "frame {:.1} ms, ticks {:.2} ms, record {:.2} ms\n{}\n\n{}",
                 self.frames.recent(),
                 self.ticks.recent(),
                 self.records.recent(),
                 self.scene.status(),
                 self.plan
-            );
-            self.overlay.draw(&self.gpu, &text, size, &view, &mut encoder);
+            )
+        };
+        let strokes = if input.explained { self.scene.strokes() } else { Vec::new() };
+        if !text.is_empty() || !strokes.is_empty() {
+            self.overlay.draw(&self.gpu, &text, (&strokes, &camera), size, &view, &mut encoder);
         }
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
@@ -216,6 +222,7 @@ impl Input {
             K::KeyP => self.autopilot = !self.autopilot,
             K::Space => self.paused = !self.paused,
             K::KeyO => self.hidden = !self.hidden,
+            K::KeyE => self.explained = !self.explained,
             K::KeyC => rig.next::<S>(),
             _ => self.chosen = DIGITS.iter().position(|digit| *digit == code).map(|at| at as u32 + 1),
         }

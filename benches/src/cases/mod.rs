@@ -5,6 +5,7 @@ mod body_flow;
 mod body_forces;
 mod body_slam;
 mod body_swing;
+mod body_hull;
 mod dispersion;
 mod dispersive_border;
 mod dispersive_choice;
@@ -118,6 +119,10 @@ pub const CASES: &[Case] = &[
     grid_medium::COST,
     body_float::DRAFT,
     body_float::TICK,
+    body_hull::HEELED,
+    body_hull::POP,
+    body_hull::MASS,
+    body_hull::SPEED,
     fleet_kernel::KERNEL,
     fleet_inertia::ERROR,
     fleet_inertia::TIME,

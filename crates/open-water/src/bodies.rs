@@ -4,7 +4,8 @@
 //! to the grid it disturbs. Bodies do not see each other: collisions are the physics engine's.
 
 use floating_body::{
-    Body, BodyState, Controls, Displacement, MooringLine, Radiation, Sampling, TextureKernel, Textures, Wrench,
+    Body, BodyState, Controls, Displacement, Explanation, MooringLine, Radiation, Sampling, TextureKernel, Textures,
+    Wrench,
 };
 use glam::{Quat, Vec2, Vec3};
 use rayon::prelude::*;
@@ -162,6 +163,11 @@ impl Bodies {
         let at = *self.index.get(id).ok_or(OpenWaterError::UnknownBody(id))?;
         self.list[at].controls = controls;
         Ok(())
+    }
+
+    pub(crate) fn explain(&self, id: BodyId) -> Result<Explanation, OpenWaterError> {
+        let at = *self.index.get(id).ok_or(OpenWaterError::UnknownBody(id))?;
+        Ok(self.list[at].body.explain(&self.list[at].controls))
     }
 
     pub(crate) fn set_moorings(&mut self, id: BodyId, lines: &[MooringLine]) -> Result<(), OpenWaterError> {

@@ -1,6 +1,6 @@
 //! [`OpenWater`]: owns the sea, the grids, the bodies and the clock, and keeps them in step.
 
-use floating_body::{Body, BodyDesc, Controls};
+use floating_body::{Body, BodyDesc, Controls, Explanation};
 use glam::Vec2;
 use ocean_spectrum::{Ocean, Outputs};
 
@@ -152,6 +152,14 @@ impl OpenWater {
     /// There is no such body.
     pub fn body(&self, id: BodyId) -> Result<&Body, OpenWaterError> {
         self.bodies.body(id)
+    }
+
+    /// What acts on a body: the cut of its hull and each force, under its controls, as the last tick left it.
+    ///
+    /// # Errors
+    /// There is no such body.
+    pub fn explain(&self, id: BodyId) -> Result<Explanation, OpenWaterError> {
+        self.bodies.explain(id)
     }
 
     /// Where a body is drawn: between its last two states, as far as `advance` left off. `None` for a body that took
