@@ -106,8 +106,9 @@ fn draft(context: &Context) -> Result<Vec<Row>, CaseError> {
             let water = FlatWater::default();
             let timing = measure(context.effort, || body.step(DT, black_box(&water), &Controls::default()));
             let clipped = quality == Quality::Clipped;
-            let row = Row::new("draft", shape.name)
-                .param("force_points", if clipped { "clipped".into() } else { points.to_string() })
+            let variant = if clipped { format!("{}, clipped", shape.name) } else { shape.name.into() };
+            let row = Row::new("draft", variant)
+                .param("force_points", points)
                 .param("chosen", if count.is_some() { "by count" } else { "by default" })
                 .error(
                     worst,

@@ -187,6 +187,7 @@ fn clipping_keeps_the_energy_of_free_swinging() {
         desc.drag = floating_body::Drag::default();
         desc.coefficients.damping = Vec3::ZERO;
         desc.coefficients.angular_damping = Vec3::ZERO;
+        desc.center_of_mass += Vec3::new(0.05, -0.1, 0.02);
         desc.coefficients.added_mass = Vec3::ZERO;
         desc.coefficients.added_inertia = Vec3::ZERO;
         let mut body = Body::new(desc).unwrap();
