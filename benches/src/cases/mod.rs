@@ -3,9 +3,9 @@
 mod body_float;
 mod body_flow;
 mod body_forces;
+mod body_hull;
 mod body_slam;
 mod body_swing;
-mod body_hull;
 mod dispersion;
 mod dispersive_border;
 mod dispersive_choice;

@@ -24,6 +24,8 @@ pub enum LoadKind {
     Keel,
     /// Waves that the body makes, or that it has made and meets.
     Radiation,
+    /// On what is dry.
+    Wind,
     /// Propeller and rudder.
     Engine,
     /// A mooring line, at its point of the hull; mean over the last step.
@@ -69,8 +71,8 @@ fn surface(waters: &[LocalWater], own: bool, at: Vec2) -> f32 {
 
 impl Body {
     /// What acts on the body where it is now, under the water of its last step and `controls`. Forces are those at this
-    /// instant; a step integrates the stiff ones implicitly. Turning drag, memory and what a wave's acceleration does to
-    /// turning are moments without a force and are left out. Allocates; not for every body in every tick.
+    /// instant; a step integrates the stiff ones implicitly. Turning drag is a moment without a force, slamming and contact
+    /// are blows: they are left out. Allocates; not for every body in every tick.
     pub fn explain(&self, controls: &Controls) -> Explanation {
         let (controls, pose, desc) = (controls.sane(), self.pose(), &self.desc);
         let (origin, orientation) = self.hull_pose();
@@ -103,12 +105,22 @@ impl Body {
         let added = coefficients.added_mass * share * (axes.transpose() * (Vec3::Y * wet.acceleration));
         add(LoadKind::AddedMass, axes * added, pose.position);
         let sides = Vec3::new(share, share.min(1.0), share);
-        let drag = -(desc.drag.linear * share + desc.drag.quadratic_rates(through) * sides) * through;
+        let mut rates = desc.drag.linear * share + desc.drag.quadratic_rates(through) * sides;
+        if let Some(skin) = &desc.skin {
+            rates.x += skin.quadratic(through.x, desc.water_density) * through.x.abs() * sides.x;
+        }
+        let drag = -rates * through;
         add(LoadKind::Drag, axes * drag.with_z(0.0), pose.position);
         let lateral = pose.position + pose.rotation * (desc.drag.lateral_center - desc.center_of_mass);
         add(LoadKind::Keel, axes * Vec3::Z * drag.z, lateral);
         let waves = axes * (-coefficients.damping * share * radiating * through) + Vec3::Y * push.x;
         add(LoadKind::Radiation, waves, pose.position);
+        if self.wind != Vec3::ZERO {
+            let velocity = axes.transpose() * self.state.velocity;
+            let (wind, rates) = self.windage(axes.transpose(), velocity, wet.volume);
+            let at = pose.position + pose.rotation * (desc.windage.center - desc.center_of_mass);
+            add(LoadKind::Wind, axes * (rates * (wind - velocity)), at);
+        }
         if let Some(engine) = &desc.engine {
             let (force, _) = self.engine(&pose, through, &controls, 1.0e-6);
             let at = pose.position + pose.rotation * (engine.position - desc.center_of_mass);

@@ -154,7 +154,7 @@ impl Body {
     }
 
     /// The wind along the axes, and its decay rates (N s/m): by how much of the hull is dry.
-    fn windage(&self, to_axes: Mat3, velocity: Vec3, wet: f32) -> (Vec3, Vec3) {
+    pub(super) fn windage(&self, to_axes: Mat3, velocity: Vec3, wet: f32) -> (Vec3, Vec3) {
         let wind = to_axes * self.wind;
         let dry = (0.5 * (self.volume - wet) * self.sheds).clamp(0.0, 100.0);
         (wind, self.desc.windage.rates(wind - velocity) * dry)
