@@ -20,6 +20,7 @@ mod fleet_gpu;
 mod fleet_idle;
 mod fleet_inertia;
 mod fleet_kernel;
+mod fleet_tick;
 mod fleet_water;
 mod grid_border;
 mod grid_current;
@@ -157,6 +158,7 @@ pub const CASES: &[Case] = &[
     grid_soak::SOAK,
     facade::EMPTY,
     facade::TICK,
+    fleet_tick::TICK,
     facade_grids::HANDOVER,
     facade_grids::WAKES,
 ];

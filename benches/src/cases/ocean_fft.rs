@@ -143,14 +143,14 @@ pub(super) fn compare(ocean: &Ocean, c: usize, made: impl Fn(usize) -> Fields + 
 }
 
 /// The transforms alone, as one writes them with rustfft.
-struct Plain {
+pub(super) struct Plain {
     fft: Arc<dyn Fft<f32>>,
     size: usize,
     arrays: Vec<[Vec<Complex32>; 4]>,
 }
 
 impl Plain {
-    fn new(size: usize, count: usize) -> Self {
+    pub(super) fn new(size: usize, count: usize) -> Self {
         let fft = FftPlanner::new().plan_fft_inverse(size);
         let mut random = Random::new(5);
         let mut number = || random.within(-1.0, 1.0) as f32;
@@ -165,7 +165,7 @@ impl Plain {
         Self { fft, size, arrays }
     }
 
-    fn run(&mut self) {
+    pub(super) fn run(&mut self) {
         let (fft, size) = (&self.fft, self.size);
         self.arrays.par_iter_mut().for_each(|[data, half, out, scratch]| {
             fft.process_immutable_with_scratch(data, half, scratch);
