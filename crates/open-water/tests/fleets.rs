@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Quat, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyState, BodyStates, Border, FleetDesc, FleetId, Follow, GridDesc, GridId, Hull, OpenWater,
+    Activity, BodyDesc, BodyState, BodyStates, Border, FleetDesc, FleetId, Follow, GridDesc, GridId, Hull, OpenWater,
     OpenWaterDesc, OpenWaterError, PieceId, Preset, Radiation,
 };
 
@@ -126,6 +126,32 @@ fn pieces_feel_the_waves_of_grids() {
         }
     }
     assert!((0.005..0.5).contains(&moved), "{moved}");
+}
+
+#[test]
+fn fleets_sleep_on_calm_water_until_a_wave_comes() {
+    let asleep = |water: &OpenWater, id: FleetId, pieces: &[PieceId]| {
+        let fleet = water.fleet(id).unwrap();
+        pieces.iter().filter(|piece| fleet.activity(**piece) == Some(Activity::Asleep)).count()
+    };
+    let settled = 0.35 - 260.0 / (1025.0 * 0.9 * 0.8);
+    for (desc, sleeps) in [(Preset::Low.water(), false), (calm(), true)] {
+        let mut water = OpenWater::headless(desc).unwrap();
+        pool(&mut water);
+        let (id, pieces) = add(&mut water, fleet(crate_desc()), 20);
+        let fleet = water.fleet_mut(id).unwrap();
+        for (i, piece) in pieces.iter().enumerate() {
+            let place = Vec3::new(i as f32 * 1.5 - 14.0, settled, -4.0);
+            assert!(fleet.set_state(*piece, BodyState::at_rest(place)));
+        }
+        let mut store = BodyStates::default();
+        run(&mut water, &mut store, 600);
+        assert_eq!(asleep(&water, id, &pieces), if sleeps { 20 } else { 0 });
+        let body = water.add_body(BodyDesc { radiation: Radiation::Grid, ..crate_desc() }).unwrap();
+        store.insert(body, BodyState::at_rest(Vec3::new(0.0, 2.0, 2.0)));
+        run(&mut water, &mut store, 150);
+        assert!(asleep(&water, id, &pieces) < 15, "{}", asleep(&water, id, &pieces));
+    }
 }
 
 #[test]
