@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use open_water::{BodyDesc, BodyId, BodyState, Hull, OpenWater, OpenWaterError, Pose};
-use water_view::{Instance, MeshId, MeshView};
+use water_view::{Instance, MeshData, MeshId, MeshView};
 
 use crate::{Dice, Mark, SceneError, barrel, crate_box};
 
@@ -41,6 +41,49 @@ impl Kind {
             Self::Barrel => (Hull::cylinder(BARREL.0, BARREL.1), BARREL.2),
         };
         Ok(BodyDesc::from_hull(&hull.map_err(OpenWaterError::from)?, mass))
+    }
+
+    /// A kind and its colour.
+    pub fn by_chance(dice: &mut Dice) -> (Self, Vec3) {
+        let kind = Self::ALL[(dice.roll() * 3.0) as usize % 3];
+        let tint = match kind {
+            Self::Barrel => TINTS[(dice.roll() * TINTS.len() as f32) as usize % TINTS.len()],
+            Self::Small | Self::Large => Vec3::splat(0.75 + 0.5 * dice.roll()),
+        };
+        (kind, tint)
+    }
+
+    /// Its mesh.
+    pub fn mesh(self) -> MeshData {
+        match self {
+            Self::Small | Self::Large => crate_box(CRATES[self as usize].0),
+            Self::Barrel => barrel(BARREL.0, BARREL.1),
+        }
+    }
+
+    /// Its mesh for far away.
+    pub fn plain_mesh(self) -> MeshData {
+        let mut mesh = MeshData::default();
+        match self {
+            Self::Small | Self::Large => mesh.cuboid(Vec3::ZERO, 0.49 * CRATES[self as usize].0, [136, 110, 78, 10]),
+            Self::Barrel => mesh.cylinder(
+                Vec3::X * (-0.5 * BARREL.1),
+                Vec3::X * (0.5 * BARREL.1),
+                BARREL.0,
+                8,
+                [190, 190, 190, 130],
+            ),
+        }
+        mesh
+    }
+
+    /// It as a flat shape.
+    pub fn mark(self, pose: Pose, tint: Vec3) -> Mark {
+        let (x, z) = (self.half().x, self.half().z);
+        let wood = Vec3::new(150.0, 105.0, 60.0);
+        let paint = if self == Self::Barrel { 255.0 * tint } else { wood * tint };
+        let color = paint.to_array().map(|c| c.min(255.0) as u8);
+        Mark::of(pose, &[(-x, -z), (x, -z), (x, z), (-x, z)], color)
     }
 
     /// Half its size along its axes, metres.
@@ -83,11 +126,7 @@ impl Flotsam {
         dice: &mut Dice,
         place: Vec2,
     ) -> Result<(Piece, BodyState), SceneError> {
-        let kind = Kind::ALL[(dice.roll() * 3.0) as usize % 3];
-        let tint = match kind {
-            Kind::Barrel => TINTS[(dice.roll() * TINTS.len() as f32) as usize % TINTS.len()],
-            Kind::Small | Kind::Large => Vec3::splat(0.75 + 0.5 * dice.roll()),
-        };
+        let (kind, tint) = Kind::by_chance(dice);
         let orientation = Quat::from_rotation_y(std::f32::consts::TAU * dice.roll());
         let start = Vec3::new(place.x, 0.2, place.y);
         let state = BodyState { orientation, ..BodyState::at_rest(start) };
@@ -107,8 +146,7 @@ impl Flotsam {
     /// Uploads the meshes, once.
     pub fn build(&mut self, device: &wgpu::Device, meshes: &mut MeshView) {
         let room = self.pieces.len();
-        self.meshes = CRATES.iter().map(|(size, _)| meshes.add(device, &crate_box(*size), room)).collect();
-        self.meshes.push(meshes.add(device, &barrel(BARREL.0, BARREL.1), room));
+        self.meshes = Kind::ALL.iter().map(|kind| meshes.add(device, &kind.mesh(), room)).collect();
     }
 
     /// Draws the pieces where `pose` says that they stand.
@@ -126,13 +164,8 @@ impl Flotsam {
 
     /// The pieces as flat shapes.
     pub fn marks(&self, pose: impl Fn(BodyId) -> Option<Pose>, marks: &mut Vec<Mark>) {
-        marks.extend(self.pieces.iter().filter_map(|piece| {
-            let (x, z) = (piece.kind.half().x, piece.kind.half().z);
-            let wood = Vec3::new(150.0, 105.0, 60.0);
-            let paint = if piece.kind == Kind::Barrel { 255.0 * piece.tint } else { wood * piece.tint };
-            let color = paint.to_array().map(|c| c.min(255.0) as u8);
-            Some(Mark::of(pose(piece.body)?, &[(-x, -z), (x, -z), (x, z), (-x, z)], color))
-        }));
+        let marked = |piece: &Piece| Some(piece.kind.mark(pose(piece.body)?, piece.tint));
+        marks.extend(self.pieces.iter().filter_map(marked));
     }
 
     /// Mean and largest distance of the pieces from where they were put, metres; `now` tells where one is.

@@ -60,9 +60,16 @@ fn crates_apart(sections: &mut Sections) -> Result<(), Failure> {
 
 /// A few frames of each headless scene; each checks itself and ends with an error when something is wrong.
 fn scenes(sections: &mut Sections) -> Result<(), Failure> {
-    for (scene, backend) in
-        [("boat", "cpu"), ("boat", "gpu"), ("harbour", "cpu"), ("harbour", "gpu"), ("fleet", "cpu"), ("fleet", "gpu")]
-    {
+    for (scene, backend) in [
+        ("boat", "cpu"),
+        ("boat", "gpu"),
+        ("harbour", "cpu"),
+        ("harbour", "gpu"),
+        ("fleet", "cpu"),
+        ("fleet", "gpu"),
+        ("flotsam", "cpu"),
+        ("flotsam", "gpu"),
+    ] {
         sections.cargo(&format!(
             "run --release --example {scene} -- --frames 4 --size 320x180 --lead 4 --backend {backend} --out target/ci/{scene}-{backend}"
         ))?;
