@@ -91,8 +91,8 @@ fn tick(context: &Context) -> Result<Vec<Row>, CaseError> {
         Row::new("fleet_tick", variant)
             .param("pieces", PIECES)
             .param("threads", 1)
-            .param("here_ms", (ns * 1e-3).round() * 1e-3)
-            .param("this_machine_is_slower_by", (slower * 1e2).round() * 1e-2)
+            .param("here_ms", (ns * 1e-3).round() / 1e3)
+            .param("this_machine_is_slower_by", (slower * 1e2).round() / 1e2)
             .error(
                 ns * 1e-6 / slower,
                 "ms there",
@@ -102,9 +102,9 @@ fn tick(context: &Context) -> Result<Vec<Row>, CaseError> {
     let part = (with.median_ns - without.median_ns).max(0.0);
     Ok(vec![
         row("what the pieces add to a tick of sea, boat and grid", part)
-            .bound(2.0)
             .time("a tick with them", &with)
-            .baseline("a tick without them", &without),
+            .baseline("a tick without them", &without)
+            .note("a difference of two ticks: without a bound, as it means nothing on a busy machine"),
         row("sea and pieces: synthesis, patches, forces", pieces.median_ns)
             .bound(2.0)
             .time("a tick", &pieces)
