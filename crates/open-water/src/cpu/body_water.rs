@@ -241,6 +241,8 @@ mod tests {
             fleet.patches(&centers, 0.6, &mut all);
             for (center, patch) in centers.iter().zip(&all) {
                 assert_eq!(fleet.patch(*center, 0.6), *patch);
+                let sea = water.ocean().map_or(f32::NAN, |ocean| ocean.patch(*center, 0.6).height);
+                assert!(patch.height == sea || !by_grid);
             }
             // What the grid adds is felt either way, and is own where they make waves.
             let own = all.iter().any(|patch| patch.own != 0.0);
