@@ -54,6 +54,7 @@ mod ocean_time;
 mod ocean_variance;
 mod ocean_view;
 mod rapier;
+mod robust;
 mod sinkage;
 
 use crate::evidence::Case;
@@ -161,4 +162,8 @@ pub const CASES: &[Case] = &[
     fleet_tick::TICK,
     facade_grids::HANDOVER,
     facade_grids::WAKES,
+    robust::FUZZ,
+    robust::TANK,
+    robust::DRIFT,
+    robust::ACCOUNT,
 ];
