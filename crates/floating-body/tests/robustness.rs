@@ -1,8 +1,8 @@
 //! Nothing that a game passes at run time breaks a body, and what a description may not hold is refused.
 
 use floating_body::{
-    Body, BodyDesc, BodyError, BodyState, Controls, FlatWater, ForcePoints, Hull, Inertia, Quality, Radiation,
-    Sampling, SurfacePatch, SurfaceSample, WaterSurface,
+    Body, BodyDesc, BodyError, BodyState, Controls, FlatWater, Fleet, FleetDesc, ForcePoints, Hull, Inertia, Quality,
+    Radiation, Sampling, SoftContact, SurfacePatch, SurfaceSample, Touch, WaterSurface,
 };
 use glam::{Quat, Vec2, Vec3};
 use proptest::prelude::*;
@@ -58,6 +58,11 @@ impl WaterSurface for Wild {
             level: self.0,
         }
     }
+
+    fn touch(&self, points: &[Vec3], out: &mut [Touch]) -> bool {
+        out[..points.len()].fill(Touch { depth: self.0, normal: Vec3::new(self.0, 1.0, 0.5) });
+        true
+    }
 }
 
 fn assert_sane(body: &Body) -> Result<(), TestCaseError> {
@@ -88,6 +93,43 @@ proptest! {
             let controls = Controls { throttle, steering: throttle, force, torque: force };
             body.step(dt, &Wild(water), &controls);
             assert_sane(&body)?;
+        }
+    }
+
+    /// Pieces of fleets too, awake, asleep and riding, that push each other and what is solid.
+    #[test]
+    fn wild_inputs_leave_finite_pieces(
+        kind in 0..4_u8,
+        size in prop::sample::select(vec![0.05_f32, 1.0, 30.0]),
+        density in prop::sample::select(vec![0.01_f32, 0.5, 3.0]),
+        (refresh, near, by_grid) in (1..=16_u32, any::<bool>(), any::<bool>()),
+        states in proptest::collection::vec((any_vector(), any_vector(), any_vector()), 1..20),
+        steps in proptest::collection::vec((any_number(), any_number(), any_vector()), 1..12),
+    ) {
+        let hull = hull(kind, size);
+        let mut body = BodyDesc::from_hull(&hull, density * 1025.0 * hull.volume());
+        body.radiation = if by_grid { Radiation::Grid } else { Radiation::Coefficients };
+        let contact = near.then(|| SoftContact::of(&hull));
+        let mut fleet = Fleet::new(FleetDesc { refresh, contact, ..FleetDesc::new(body) }).unwrap();
+        for (position, velocity, angular_velocity) in states {
+            let state = BodyState { velocity, angular_velocity, ..BodyState::at_rest(position) };
+            // What is no state is refused.
+            let _ = fleet.add(state);
+        }
+        for (dt, water, eye) in steps {
+            fleet.look(Some(eye));
+            // Now and then of a size that moves something.
+            fleet.step(if dt > 1.0 { dt / 60.0 } else { dt }, &Wild(water));
+            for (id, s) in fleet.iter() {
+                prop_assert!(s.position.is_finite() && s.velocity.is_finite() && s.angular_velocity.is_finite(), "{s:?}");
+                prop_assert!((s.orientation.length() - 1.0).abs() < 1e-3, "{s:?}");
+                prop_assert!(s.velocity.length() < 230.0 && s.angular_velocity.length() < 61.0, "{s:?}");
+                let pose = fleet.hull_pose(id, 0.5).unwrap();
+                prop_assert!(pose.0.is_finite() && pose.1.is_finite());
+            }
+            let mut list = Vec::new();
+            fleet.displacements(&mut list);
+            prop_assert!(list.iter().all(|d| d.volume.is_finite() && d.center.is_finite() && d.radius > 0.0));
         }
     }
 
