@@ -51,7 +51,7 @@ pub(super) const ACCOUNT: Case = Case {
 const TICKS: u32 = 40;
 
 fn fuzz(context: &Context) -> Result<Vec<Row>, CaseError> {
-    let (meshes, cases) = (meshes()?, context.pick(10_000u64, 1_000_000));
+    let (meshes, cases) = (meshes()?, context.pick(3_000u64, 1_000_000));
     let tried: Result<Vec<Trial>, _> = (0..cases).into_par_iter().map(|i| trial(i, TICKS, &meshes)).collect();
     let tried = tried?;
     let count = |what: fn(&Trial) -> bool| tried.iter().filter(|t| what(t)).count() as f64;
