@@ -1,7 +1,7 @@
 //! Bodies that radiate into a dispersive grid.
 
 use floating_body::{Body, Drag};
-use glam::{Quat, Vec3};
+use glam::{DVec2, Quat, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Border, Closure, Follow, GridDesc, Hull, OpenWater, OpenWaterDesc, Preset,
     Radiation, Scheme, TriMesh,
@@ -184,4 +184,39 @@ fn a_hull_under_way_sinks_and_its_wake_does_not_lift_the_stern() {
     }
     assert!(sinkage > 0.005 && sinkage < 0.3, "{sinkage} m");
     assert!(bow > 0.0 && bow < 0.1, "{bow}");
+}
+
+#[test]
+fn waves_between_walls_have_the_energy_that_a_raft_gave_them() {
+    // Of two layers of force points, that meet at the waterline.
+    let hull = Hull::cuboid(Vec3::new(6.0, 1.5, 3.0)).unwrap();
+    let mut desc = BodyDesc::from_hull(&hull, 13_837.5);
+    desc.center_of_mass.y = -0.3;
+    desc.estimate();
+    (desc.radiation, desc.drag) = (Radiation::Grid, Drag::default());
+    let mut water: OpenWaterDesc = Preset::Low.water();
+    water.sea.partitions.clear();
+    let mut water = OpenWater::headless(water).unwrap();
+    let body = water.add_body(desc).unwrap();
+    let grid = GridDesc {
+        follow: Follow::Fixed(DVec2::ZERO),
+        cells: [96; 2],
+        cell_size: [0.5; 2],
+        scheme: Scheme::Dispersive,
+        border: Border::Reflecting,
+        ..GridDesc::default()
+    };
+    let grid = water.add_grid(grid).unwrap();
+    let mut store = BodyStates::default();
+    let lifted = 0.05f32;
+    let rest = water.body(body).unwrap().rest_height();
+    store.insert(body, BodyState::at_rest(Vec3::Y * (rest + lifted)));
+    let mut tank = Tank { water, store, body };
+    for _ in 0..30 * 60 {
+        tank.tick();
+    }
+    // m^5/s^2: of the weight that is lifted over its waterplane.
+    let given = f64::from(0.5 * 9.81 * 18.0 * lifted * lifted);
+    let held = tank.water.grid(grid).unwrap().unwrap().energy();
+    assert!(held > 0.9 * given && held < 1.1 * given, "{held} of {given}");
 }

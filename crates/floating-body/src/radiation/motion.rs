@@ -50,8 +50,9 @@ pub(crate) struct Radiator {
     radius: f32,
     /// Of the waterplane over the volume at rest, 1/m.
     area_by_volume: f32,
-    /// Sums over the points' areas: the areas, their second moments; those at the surface at rest.
+    /// Sums over the points' areas: the areas, their second moments.
     areas: [f32; 3],
+    /// See [`crossing`], at rest.
     afloat: f32,
     told: Place,
     before: Place,
@@ -69,7 +70,8 @@ fn area(point: &ForcePoint) -> f32 {
     4.0 * point.half.x * point.half.z
 }
 
-/// How much of a point's area is at the surface.
+/// How much a hull of which this share of the volume is under water counts as afloat. Asked of the whole hull: where it is
+/// made of layers, the surface may lie between two of them.
 fn crossing(share: f32) -> f32 {
     (10.0 * share.min(1.0 - share)).clamp(0.0, 1.0)
 }
@@ -92,17 +94,19 @@ impl Radiator {
         }
     }
 
-    /// Sums over the points, those at the surface with the water at `level` over the centre of mass.
+    /// Sums over the points; at rest the water is at `level` over the centre of mass.
     pub(crate) fn weigh(&mut self, points: &[ForcePoint], level: f32) {
         self.areas = [0.0; 3];
-        self.afloat = 0.0;
+        let (mut wet, mut whole) = (0.0, 0.0);
         for point in points {
             let from = Vec2::new(point.position.x, point.position.z) - self.center;
             self.areas[0] += area(point);
             self.areas[1] += area(point) * from.x * from.x;
             self.areas[2] += area(point) * from.y * from.y;
-            self.afloat += area(point) * crossing(point.immersion(level - point.position.y, Vec3::Y).share);
+            wet += point.volume * point.immersion(level - point.position.y, Vec3::Y).share;
+            whole += point.volume;
         }
+        self.afloat = crossing(wet / whole);
     }
 
     /// Where the textures lie: the centre of mass and the heading of the hull's x axis.
@@ -123,7 +127,7 @@ impl Radiator {
     ) {
         let r = pose.rotation;
         let (at, heading) = Self::spot(pose);
-        let (mut sums, mut afloat) = (Vec3::ZERO, 0.0);
+        let (mut sums, mut wet, mut all) = (Vec3::ZERO, 0.0, 0.0);
         let middle = pose.position + r * Vec3::new(self.center.x, 0.0, self.center.y);
         let height_at = |point: &ForcePoint, water: &LocalWater| {
             let p = pose.position + r * point.position;
@@ -136,14 +140,15 @@ impl Radiator {
             let over = height - middle.y;
             sums += Vec3::new(over, -from.y * over, from.x * over) * area(point);
             let share = point.immersion(height - y, r.transpose() * Vec3::Y).share;
-            afloat += area(point) * crossing(share);
+            wet += point.volume * share;
+            all += point.volume;
         }
         let [whole, along, across] = self.areas;
         let per = |sum: f32, by: f32| if by > 0.0 { sum / by } else { 0.0 };
         let water = Vec3::new(per(sums.x, whole), per(sums.y, across), per(sums.z, along));
         let modes = Vec3::new(0.0, -r.z_axis.y, r.x_axis.y) - water;
         let upright = ((r.y_axis.y - UPRIGHT.1) / (UPRIGHT.0 - UPRIGHT.1)).clamp(0.0, 1.0);
-        self.gate = upright * per(2.0 * afloat, self.afloat).min(1.0);
+        self.gate = upright * per(2.0 * crossing(wet / all), self.afloat).min(1.0);
         let now = Place { at, heading, modes, share: volume_share };
         self.before = if restart { now } else { self.told };
         if restart {
