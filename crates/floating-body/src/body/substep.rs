@@ -3,6 +3,7 @@
 use glam::{Mat3, Vec2, Vec3};
 
 use super::moorings::Mobility;
+use super::touch::Motion;
 use super::{Body, BodyState, DEEPEST, FINEST, LIMITS, Scheme};
 use crate::desc::{Inertia, Radiation, Sampling};
 use crate::drag::implicit;
@@ -141,7 +142,12 @@ impl Body {
         let driven = (implicit(spin, linear, rates, moments, dt) + wet.spin).clamp_length_max(LIMITS.1);
         let through = driven - wet.spin;
         self.remember(Vec3::new(slowed.y, through.x, through.z), dt);
-        let driven = if self.solids.near { self.press(dt, &pose, &mobility, driven) } else { driven };
+        let driven = if self.solids.near {
+            let came = Motion { velocity: before, spin: pose.rotation * spun };
+            self.press(dt, &pose, &mobility, driven, came)
+        } else {
+            driven
+        };
         let (turning, mean) = match self.desc.inertia {
             Inertia::Full => tumble(inertia, driven, dt),
             Inertia::PreRigid => (driven, driven),

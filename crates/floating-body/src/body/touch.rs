@@ -32,8 +32,6 @@ struct Press {
     spring: Spring,
     /// Mass felt along the normal, kg.
     mass: f32,
-    /// Speed along the normal before, m/s.
-    came: f32,
     /// Impulses along and across the normal, N s.
     push: f32,
     rub: Vec3,
@@ -117,7 +115,7 @@ impl Solids {
             let mass = 1.0 / yields.yields(normal, arm, pose.rotation);
             let spring = contact.spring(depth, dt, fastest);
             if mass.is_finite() && came.is_finite() {
-                self.presses.push(Press { normal, arm, spring, mass, came, push: 0.0, rub: Vec3::ZERO });
+                self.presses.push(Press { normal, arm, spring, mass, push: 0.0, rub: Vec3::ZERO });
             }
         }
     }
@@ -125,8 +123,8 @@ impl Solids {
 
 impl Body {
     /// Pushes against what is touched and rubs along it: changes the velocity, and answers with the rotation (body axes)
-    /// that comes of `spin`. Gives no energy but what the springs hold.
-    pub(super) fn press(&mut self, dt: f32, pose: &Pose, yields: &Mobility, spin: Vec3) -> Vec3 {
+    /// that comes of `spin`; `start` is how it moved when the sub-step began. Gives no energy but what the springs hold.
+    pub(super) fn press(&mut self, dt: f32, pose: &Pose, yields: &Mobility, spin: Vec3, start: Motion) -> Vec3 {
         let Some(contact) = self.desc.contact else { return spin };
         let before = Motion { velocity: self.state.velocity, spin: pose.rotation * spin };
         let fastest = (GRAVITY * contact.sink.max(0.25 * self.reach)).sqrt();
@@ -142,12 +140,16 @@ impl Body {
                 motion = p.rub(contact.friction, motion, yields, pose.rotation);
             }
         }
-        // Slower than this an impact is a landing.
-        let slow = (GRAVITY * contact.sink).sqrt() + 2.0 * GRAVITY * dt;
-        for p in presses.iter_mut().filter(|p| p.push > 0.0 && p.came < -slow) {
-            motion = p.bounce(contact.restitution, motion, yields, pose.rotation);
+        // Slower than this an impact is a landing. What the weight adds in this sub-step does not bounce: a fall would
+        // have it once more on its way down.
+        let slow = (GRAVITY * contact.sink).sqrt() + GRAVITY * dt;
+        for p in presses.iter_mut().filter(|p| p.push > 0.0) {
+            let came = start.at(p.arm).dot(p.normal);
+            if came < -slow {
+                motion = p.bounce(contact.restitution * came, motion, yields, pose.rotation);
+            }
         }
-        let motion = keep(before, motion, presses, yields, pose.rotation);
+        let motion = keep(start, before, motion, presses, yields, pose.rotation);
         self.state.velocity = motion.velocity.clamp_length_max(LIMITS.0);
         (pose.rotation.transpose() * motion.spin).clamp_length_max(LIMITS.1)
     }
@@ -178,28 +180,31 @@ impl Press {
         motion.pushed(impulse, self.arm, yields, rotation)
     }
 
-    /// Newton's rule of impact.
-    fn bounce(&mut self, restitution: f32, motion: Motion, yields: &Mobility, rotation: Mat3) -> Motion {
+    /// Newton's rule of impact: `kept` is what is kept of the speed along the normal, m/s.
+    fn bounce(&mut self, kept: f32, motion: Motion, yields: &Mobility, rotation: Mat3) -> Motion {
         let speed = motion.at(self.arm).dot(self.normal);
-        let whole = (self.push - self.mass * (speed + restitution * self.came)).max(0.0);
+        let whole = (self.push - self.mass * (speed + kept)).max(0.0);
         let impulse = self.normal * (whole - self.push);
         self.push = whole;
         motion.pushed(impulse, self.arm, yields, rotation)
     }
 }
 
-/// The motion, held back where several contacts together would give more energy than their springs hold.
-fn keep(before: Motion, after: Motion, presses: &[Press], yields: &Mobility, rotation: Mat3) -> Motion {
+/// The motion, held back where several contacts together would give more energy than their springs hold: so much may be the
+/// impulses' work on the mean of the motions at the sub-step's `start`, and `before` and `after` them. With `before` alone
+/// each bounce would gain what the weight did in its sub-step.
+fn keep(start: Motion, before: Motion, after: Motion, presses: &[Press], yields: &Mobility, rotation: Mat3) -> Motion {
     let held: f32 = presses.iter().map(|p| p.mass * p.spring.bias.min(0.0).powi(2)).sum();
     let change = Motion { velocity: after.velocity - before.velocity, spin: after.spin - before.spin };
-    let start = before.energy(yields, rotation);
-    let excess = after.energy(yields, rotation) - start - held;
-    // Twice the energy is start + s linear + s^2 square at a share s of the change.
-    let square = change.energy(yields, rotation);
-    if excess <= 1.0e-6 * start || square <= 0.0 {
+    let mid = Motion { velocity: 0.5 * (start.velocity + before.velocity), spin: 0.5 * (start.spin + before.spin) };
+    let end = Motion { velocity: mid.velocity + change.velocity, spin: mid.spin + change.spin };
+    let (whole, square) = (mid.energy(yields, rotation), change.energy(yields, rotation));
+    let gain = end.energy(yields, rotation) - whole;
+    // Twice the work is s linear + s^2 square at a share s of the change.
+    if gain - held <= 1.0e-6 * whole || square <= 0.0 {
         return after;
     }
-    let linear = after.energy(yields, rotation) - start - square;
+    let linear = gain - square;
     let share = 0.5 * ((linear * linear + 4.0 * square * held).sqrt() - linear) / square;
     let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
     Motion { velocity: before.velocity + change.velocity * share, spin: before.spin + change.spin * share }
