@@ -1,7 +1,7 @@
 //! A field of flotsam: thousands of crates and barrels, a fleet for each kind.
 
 use glam::{Affine3A, Quat, Vec2, Vec3};
-use open_water::{Activity, BodyState, FleetDesc, FleetId, OpenWater, PieceId, Pose};
+use open_water::{Activity, BodyState, FleetDesc, FleetId, OpenWater, PieceId, Pose, SoftContact};
 use water_view::{Instance, MeshId, MeshView};
 
 use crate::{Dice, Kind, Mark, SceneError};
@@ -89,7 +89,9 @@ impl Field {
     /// The water refuses a fleet.
     pub fn new(water: &mut OpenWater) -> Result<Self, SceneError> {
         let sort = |kind: Kind| {
-            let fleet = water.add_fleet(FleetDesc { ride_below: RIDE_BELOW, ..FleetDesc::new(kind.body()?) })?;
+            let body = kind.body()?;
+            let contact = Some(SoftContact::of(&body.hull));
+            let fleet = water.add_fleet(FleetDesc { ride_below: RIDE_BELOW, contact, ..FleetDesc::new(body) })?;
             Ok::<_, SceneError>(Sort { kind, fleet, pieces: Vec::new(), meshes: None })
         };
         let sorts = Kind::ALL.into_iter().map(sort).collect::<Result<_, _>>()?;

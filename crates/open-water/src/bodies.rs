@@ -235,13 +235,16 @@ impl Bodies {
         self.list.iter().any(|entry| entry.active)
     }
 
-    /// Moves every active body by one tick and gathers what it displaced.
-    pub(crate) fn step(&mut self, dt: f32, water: Composite) {
+    /// Moves every active body by one tick, as `eye` sees it, and gathers what it displaced.
+    pub(crate) fn step(&mut self, dt: f32, eye: Option<Vec3>, water: Composite) {
         let grids = water.grids;
         self.list.par_chunks_mut(CHUNK).for_each(|entries| {
             for entry in entries.iter_mut().filter(|entry| entry.active) {
                 let before = entry.body.state();
                 let jumped = entry.previous.is_none();
+                if let Some(eye) = eye {
+                    entry.body.set_distance(eye.distance(before.position));
+                }
                 entry.homes.settle(grids, entry.settler(before), dt, jumped);
                 entry.fit(grids);
                 let (by_grid, pattern) = (entry.radiates(), entry.pattern.as_deref());

@@ -70,9 +70,9 @@ pub use wakes::{Wake, WakesDesc};
 pub use water::{OpenWater, Reports};
 
 pub use floating_body::{
-    Activity, Body, BodyDesc, BodyState, Closure, Contact, Controls, Engine, Explanation, Fleet, FleetDesc, Hull,
-    HullKind, Inertia, Load, LoadKind, MooringLine, PieceId, Radiation, RadiationTable, RadiationTables, TriMesh,
-    Wrench,
+    Activity, Body, BodyDesc, BodyState, Closure, Coefficients, Contact, Controls, Drag, Engine, Explanation, Fleet,
+    FleetDesc, ForcePoints, Hull, HullKind, Inertia, Load, LoadKind, MooringLine, PieceId, Quality, Radiation,
+    RadiationTable, RadiationTables, Sampling, Skin, Slamming, SoftContact, TriMesh, Windage, Wrench,
 };
 pub use ocean_spectrum::{
     CascadeDesc, DirectionalTable, Ocean, OceanDesc, Partition, SeaState, Spectrum, Spreading, TableRow, Tail,

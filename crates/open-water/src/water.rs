@@ -186,15 +186,16 @@ impl OpenWater {
         if tick.index != expected {
             return Err(OpenWaterError::TickOutOfOrder { expected, found: tick.index });
         }
+        let eye = self.looking.map(|look| look.eye);
         let any = self.bodies.read(store, tick.dt, &mut self.reports);
         self.keep_wakes(tick.dt);
         self.prepare_sea();
         let water =
             Composite { ocean: self.ocean.as_ref(), grids: &self.grids, shore: &self.shore, wind: self.desc.wind };
         if any {
-            self.bodies.step(tick.dt, water);
+            self.bodies.step(tick.dt, eye, water);
         }
-        self.fleets.step(tick.dt, self.looking.map(|look| look.eye), water);
+        self.fleets.step(tick.dt, eye, water);
         if any {
             self.bodies.disturb(&mut self.grids);
             self.bodies.write(store);

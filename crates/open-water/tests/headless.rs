@@ -2,8 +2,8 @@
 
 use glam::{DVec2, Quat, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyId, BodyState, BodyStates, BodyStore, Border, Controls, Follow, GridDesc, Hull, OpenWater,
-    OpenWaterDesc, OpenWaterError, Preset, Radiation, Scheme, Tick, WaterSample,
+    BodyDesc, BodyId, BodyState, BodyStates, BodyStore, Border, Controls, Follow, GridDesc, Hull, Look, OpenWater,
+    OpenWaterDesc, OpenWaterError, Preset, Quality, Radiation, Scheme, Tick, WaterSample,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -236,4 +236,23 @@ fn a_guest_in_the_grid_of_another_makes_no_waves_unless_asked_to() {
     };
     let (guest, asked) = (highest(Radiation::Coefficients), highest(Radiation::Grid));
     assert!(guest < 1e-3 && asked > 10.0 * guest.max(1e-3), "{guest} m, asked to: {asked} m");
+}
+
+#[test]
+fn hulls_are_clipped_near_the_eye() {
+    let mut water = OpenWater::headless(OpenWaterDesc::default()).unwrap();
+    let hull = Hull::cuboid(Vec3::new(4.0, 1.0, 2.0)).unwrap();
+    let desc = BodyDesc { quality: Quality::Near(50.0), ..BodyDesc::from_hull(&hull, 4_000.0) };
+    let id = water.add_body(desc).unwrap();
+    let mut store = BodyStates::default();
+    store.insert(id, water.body(id).unwrap().state());
+    for (away, share) in [(20.0, 1.0), (200.0, 0.0)] {
+        water.look(Look { eye: Vec3::new(away, 3.0, 0.0), direction: -Vec3::X, fov_y: 0.8, aspect: 1.6 });
+        for _ in 0..60 {
+            for tick in water.advance(1.0 / 60.0) {
+                water.tick(tick, &mut store).unwrap();
+            }
+        }
+        assert_eq!(water.body(id).unwrap().clipped_share(), share, "from {away} m");
+    }
 }
