@@ -115,7 +115,8 @@ fn error(_: &Context) -> Result<Vec<Row>, CaseError> {
     };
     // R^2 (1 + mu^2) = L^2 / 3.
     let round = (3.0 * 0.25 * (1.0 + 0.9f32 * 0.9)).sqrt();
-    let shapes: [(&str, &dyn Fn(f32) -> Vec3, f32); 2] = [("box", &cuboid, 1.0), ("hollow cylinder", &hollow, round)];
+    type Size<'a> = &'a dyn Fn(f32) -> Vec3;
+    let shapes: [(&str, Size, f32); 2] = [("box", &cuboid, 1.0), ("hollow cylinder", &hollow, round)];
     for (name, unit, isotropic) in shapes {
         for aspect in [isotropic, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0] {
             let unit = unit(aspect);
