@@ -4,7 +4,7 @@
 //! volume that each body displaced ([`Body::displacements`]). [`FlatWater`] and [`AiryWave`] stand in for an ocean.
 //! [`Fleet`] moves many pieces of one description for a fraction of what bodies of their own cost.
 //! Method: force points as in Yang et al. 2017, section 3, with hydrostatics and added mass of linear theory.
-//! Units are m, s, kg, rad; y is up, a hull's x is forward. No slamming, planing lift or contact between bodies.
+//! Units are m, s, kg, rad; y is up, a hull's x is forward. No planing lift; hulls do not touch each other.
 //!
 //! ```
 //! use floating_body::{Body, BodyDesc, BodyState, Controls, FlatWater, Hull};
