@@ -65,7 +65,7 @@ fn asleep(context: &Context) -> Result<Vec<Row>, CaseError> {
                 "% of the time of pieces awake",
                 "the same, not allowed to sleep",
             )
-            .bound(2.0)
+            .param("target_%", 2)
             .time("a tick of all", &sleeping)
             .baseline("all awake", &waking),
     ])
@@ -91,7 +91,7 @@ fn riding(context: &Context) -> Result<Vec<Row>, CaseError> {
         base()
             .param("riding_%", 100.0 * share(&riders, Activity::Riding))
             .error(100.0 * ride.median_ns / swim.median_ns, "% of the time of pieces awake", "the same, nobody looking")
-            .bound(20.0)
+            .param("target_%", 20)
             .time("a tick of all", &ride)
             .baseline("all awake", &swim),
     ];

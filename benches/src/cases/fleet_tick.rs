@@ -106,7 +106,7 @@ fn tick(context: &Context) -> Result<Vec<Row>, CaseError> {
             .baseline("a tick without them", &without)
             .note("a difference of two ticks: without a bound, as it means nothing on a busy machine"),
         row("sea and pieces: synthesis, patches, forces", pieces.median_ns)
-            .bound(2.0)
+            .param("target_ms", 2)
             .time("a tick", &pieces)
             .baseline("the same pieces as bodies, each by itself", &plain),
         row("sea, boat, grid and pieces", with.median_ns)

@@ -147,13 +147,13 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
     Ok(vec![
         row("against the plain loop", 1, 1)
             .error(ratio(&single, &plain), "of its time", "a plain loop with the same operations")
-            .bound(0.4)
+            .param("target", 0.4)
             .time(timed, &single)
             .baseline(loop_name, &plain)
             .limit(moving, bytes),
         row("on two threads", 2, 1)
             .error(ratio(&double, &single), "of the time of one", "itself on one thread")
-            .bound(1.0 / 1.7)
+            .param("target", 0.588)
             .time(timed, &double)
             .baseline(loop_name, &plain)
             .note("needs two cores of its own"),
