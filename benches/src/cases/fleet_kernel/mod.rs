@@ -121,18 +121,16 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
     let [every, both, fourth] = &mut fleets;
     let bytes = triad_ns_per_byte(context.effort, 12 << 20, false) * (4 * NUMBERS * BODIES) as f64;
     let effort = context.effort;
-    let [single, double, seldom, plain, each] = one.install(|| {
-        fastest(
-            effort,
-            [
-                &mut || every.step(DT, black_box(&field)),
-                &mut || two.install(|| both.step(DT, black_box(&field))),
-                &mut || fourth.step(DT, black_box(&field)),
-                &mut || plain.tick(DT, black_box(&field)),
-                &mut || each.tick(DT, black_box(&field)),
-            ],
-        )
-    });
+    let [single, double, seldom, plain, each] = fastest(
+        effort,
+        [
+            &mut || one.install(|| every.step(DT, black_box(&field))),
+            &mut || two.install(|| both.step(DT, black_box(&field))),
+            &mut || one.install(|| fourth.step(DT, black_box(&field))),
+            &mut || plain.tick(DT, black_box(&field)),
+            &mut || each.tick(DT, black_box(&field)),
+        ],
+    );
     let row = |variant: &str, threads: usize, refresh: usize| {
         Row::new("fleet_kernel", variant)
             .param("bodies", BODIES)

@@ -15,8 +15,9 @@ use crate::body::LIMITS;
 use crate::forces::read_plane;
 use crate::{Coefficients, GRAVITY, SurfacePatch, WaterSurface};
 
-/// Packs that a thread takes at once. Fixed, and pieces do not see each other, so that results do not depend on threads.
-const CHUNK: usize = 32;
+/// Packs that a thread takes at once: with more, two threads finish too far apart. Fixed, and pieces do not see each
+/// other, so that results do not depend on threads.
+const CHUNK: usize = 8;
 
 /// What a tick is like for all pieces.
 pub(super) struct Tick<'a> {
