@@ -10,6 +10,10 @@ use open_water_benches::{
     evidence::{Case, Context, Machine, Report, Row, SCHEMA, draw, table},
 };
 
+/// Counts what rows about allocations and leaks tell.
+#[global_allocator]
+static HEAP: &stats_alloc::StatsAlloc<std::alloc::System> = &stats_alloc::INSTRUMENTED_SYSTEM;
+
 /// Measures how right and how fast Open Water is on this machine.
 ///
 /// Every row compares a result of the library with something that shares no code with it, and gives the time it took.

@@ -1,6 +1,7 @@
 //! What every case of the evidence uses.
 
 mod context;
+mod heap;
 pub mod limits;
 mod machine;
 mod plot;
@@ -10,6 +11,7 @@ mod table;
 mod timing;
 
 pub use context::{Context, Gpu};
+pub use heap::{allocations, heap_bytes};
 pub use machine::{Adapter, Machine};
 pub use plot::{Axis, Plot, draw, picture};
 pub use report::{Report, Row, SCHEMA};
