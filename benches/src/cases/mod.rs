@@ -22,6 +22,8 @@ mod fleet_inertia;
 mod fleet_kernel;
 mod fleet_tick;
 mod fleet_water;
+mod frame_scene;
+mod frame_soak;
 mod grid_border;
 mod grid_current;
 mod grid_edges;
@@ -166,4 +168,6 @@ pub const CASES: &[Case] = &[
     robust::TANK,
     robust::DRIFT,
     robust::ACCOUNT,
+    frame_scene::SCENE,
+    frame_soak::SOAK,
 ];
