@@ -1,13 +1,16 @@
-//! Explicit bind group layouts and compute pipelines from a [`Pass`], and the [`Readback`] ring.
+//! Explicit bind group layouts and compute pipelines from a [`Pass`], the [`Readback`] ring, and errors of a device as
+//! values ([`guarded`]).
 //!
 //! Nothing here submits, blocks, or decides when a pass runs.
 
+mod guard;
 mod readback;
 
 use std::num::NonZeroU64;
 
 use crate::Pass;
 
+pub use guard::{Injected, Refusal, guarded, inject, is_alive};
 pub use readback::{Readback, Reading};
 
 /// What stands at one binding of a bind group.
@@ -111,7 +114,7 @@ pub fn bind_group(
 pub fn shader(device: &wgpu::Device, pass: &Pass) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(pass.name),
-        source: wgpu::ShaderSource::Wgsl(pass.source().into()),
+        source: wgpu::ShaderSource::Wgsl(guard::source(pass).into()),
     })
 }
 

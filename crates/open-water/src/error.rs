@@ -105,7 +105,9 @@ pub enum OpenWaterError {
     /// The device cannot do what the water needs.
     #[cfg(feature = "gpu")]
     #[error(
-        "the device's limit {limit} is {found}, but the water needs {needed}: ask for `OpenWater::required_limits()`"
+        "the device's limit {limit} is {found}, but the water needs {needed}: ask the adapter for \
+         `OpenWater::required_limits()`, make seas, grids and maps smaller, or, if the adapter has no more, go on without it \
+         by `OpenWater::headless`"
     )]
     DeviceLimit {
         /// Name of the limit in `wgpu::Limits`.
@@ -115,6 +117,32 @@ pub enum OpenWaterError {
         /// What is needed.
         needed: u64,
     },
+    /// The device has no memory left.
+    #[cfg(feature = "gpu")]
+    #[error(
+        "the device has no memory for {what}: let go of other resources, take fewer or smaller cascades, grids or maps, or \
+         a lower `Preset`"
+    )]
+    OutOfMemory {
+        /// What it was for.
+        what: &'static str,
+    },
+    /// The device, its driver or its shader compiler refused what should work everywhere.
+    #[cfg(feature = "gpu")]
+    #[error(
+        "the device refused {what}: try another backend or driver, or go on without it by `OpenWater::headless`, and report \
+         this: {reason}"
+    )]
+    Device {
+        /// What it refused.
+        what: &'static str,
+        /// What it says, with the name of the shader if it is one.
+        reason: String,
+    },
+    /// The device is lost or was destroyed.
+    #[cfg(feature = "gpu")]
+    #[error("the device is lost: ask the adapter for another and hand it to `OpenWater::replace_device`")]
+    DeviceLost,
     /// The GPU side of the ambient sea was refused.
     #[cfg(feature = "gpu")]
     #[error(transparent)]

@@ -18,30 +18,43 @@ impl OpenWater {
     pub fn add_grid(&mut self, desc: GridDesc) -> Result<GridId, OpenWaterError> {
         desc.check_home()?;
         self.grids.check_within(&desc)?;
+        self.grids.check_room()?;
         let grid = desc.wave_grid(self.clock.dt());
         let sim = match desc.home {
             GridHome::Cpu => Sim::Cpu(Box::new(self.cpu_grid(&desc, grid)?)),
             #[cfg(feature = "gpu")]
             GridHome::Gpu => {
                 let gpu = self.gpu.as_mut().ok_or(OpenWaterError::NoGpu)?;
-                Sim::Gpu(Box::new(gpu.remote.add(grid)?))
+                Sim::Gpu(Box::new(gpu.add_grid(grid)?))
             }
             #[cfg(not(feature = "gpu"))]
             GridHome::Gpu => return Err(OpenWaterError::NoGpu),
         };
         let (fed, nested) = (desc.feed.any(), desc.within.is_some());
-        let id = self.grids.insert(desc, sim)?;
+        #[cfg(feature = "gpu")]
+        if let Err(error) = self.room_for(&desc) {
+            if let (Some(gpu), Sim::Gpu(grid)) = (&mut self.gpu, sim) {
+                gpu.remote.take_back(grid.id);
+            }
+            return Err(error);
+        }
+        let id = self.grids.insert(desc, sim);
         if nested {
             self.nest(id);
-        }
-        #[cfg(feature = "gpu")]
-        if let Some(gpu) = &mut self.gpu {
-            gpu.resize_pool(self.grids.pool_cells());
         }
         if fed {
             self.rebuild_shore(self.shore.terrain.clone())?;
         }
         Ok(id)
+    }
+
+    /// Makes room for one more grid's drawn heights.
+    #[cfg(feature = "gpu")]
+    fn room_for(&mut self, desc: &GridDesc) -> Result<(), OpenWaterError> {
+        let Some(gpu) = &mut self.gpu else { return Ok(()) };
+        let cells = u64::from(desc.cells[0]) * u64::from(desc.cells[1]) + u64::from(self.grids.pool_cells());
+        gpu.check_pool(cells)?;
+        gpu.resize_pool(cells as u32)
     }
 
     /// Puts a new grid where it is to be, with the waves of the one that it lies in.
@@ -93,7 +106,8 @@ impl OpenWater {
             if let Sim::Gpu(grid) = removed.sim {
                 gpu.remote.remove(grid.id);
             }
-            gpu.resize_pool(self.grids.pool_cells());
+            // Where there is no memory for a smaller pool, the old one does.
+            let _ = gpu.resize_pool(self.grids.pool_cells());
         }
         if removed.desc.feed.any() {
             self.rebuild_shore(self.shore.terrain.clone())?;

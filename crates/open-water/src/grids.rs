@@ -281,11 +281,16 @@ impl Grids {
         self.list.iter_mut().find(|grid| grid.id == id)
     }
 
-    pub(crate) fn insert(&mut self, desc: GridDesc, sim: Sim) -> Result<GridId, OpenWaterError> {
+    /// Refuses one grid too many.
+    pub(crate) fn check_room(&self) -> Result<(), OpenWaterError> {
         if self.list.len() >= MAX_GRIDS {
             let value = self.list.len() as f64 + 1.0;
             return Err(OpenWaterError::InvalidValue { field: "grids", value, bound: "at most 32" });
         }
+        Ok(())
+    }
+
+    pub(crate) fn insert(&mut self, desc: GridDesc, sim: Sim) -> GridId {
         let id = self.ids.insert(());
         let root = desc.within.and_then(|within| self.get(within).ok()).map_or(id, |around| around.root);
         self.list.push(Grid {
@@ -303,7 +308,7 @@ impl Grids {
             feeding: None,
         });
         self.place();
-        Ok(id)
+        id
     }
 
     /// Takes a grid out at once.

@@ -61,6 +61,8 @@ pub use cpu::surface::WaterSample;
 pub use desc::{Consumers, GridDesc, GridHome, OpenWaterDesc, Preset, View};
 pub use error::OpenWaterError;
 pub use follow::{Follow, Look};
+#[cfg(feature = "gpu")]
+pub use gpu::DeviceLoss;
 pub use grids::MAX_GRIDS;
 pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shelter};
 pub use moorings::Mooring;

@@ -54,6 +54,8 @@ pub enum Reason {
     Unchanged,
     /// The water was made without a device.
     Headless,
+    /// The device is lost: see [`OpenWater::replace_device`](crate::OpenWater::replace_device).
+    DeviceLost,
 }
 
 impl fmt::Display for Reason {
@@ -65,6 +67,7 @@ impl fmt::Display for Reason {
             Self::Asleep => "asleep",
             Self::Unchanged => "unchanged",
             Self::Headless => "headless",
+            Self::DeviceLost => "the device is lost",
         })
     }
 }

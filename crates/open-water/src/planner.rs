@@ -23,9 +23,17 @@ pub(crate) struct Shown {
 #[derive(Debug, Clone, Copy, Default)]
 struct Facts {
     present: bool,
+    lost: bool,
     shown: Shown,
     field_dispatches: u32,
     look_dispatches: u32,
+}
+
+impl Facts {
+    /// Why nothing is drawn where no device is.
+    fn absent(&self) -> Reason {
+        if self.lost { Reason::DeviceLost } else { Reason::Headless }
+    }
 }
 
 impl OpenWater {
@@ -57,7 +65,8 @@ impl OpenWater {
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &self.gpu {
             let (field_dispatches, look_dispatches) = gpu.ocean_dispatches();
-            return Facts { present: true, shown: gpu.shown(), field_dispatches, look_dispatches };
+            let lost = gpu.lost;
+            return Facts { present: !lost, lost, shown: gpu.shown(), field_dispatches, look_dispatches };
         }
         Facts::default()
     }
@@ -66,7 +75,7 @@ impl OpenWater {
         let looks = consumers.intersects(Consumers::NORMALS | Consumers::FOAM);
         let moment = |looks| Some((plan.tick, plan.alpha, looks));
         let reason = match &self.ocean {
-            _ if !facts.present => Reason::Headless,
+            _ if !facts.present => facts.absent(),
             None => Reason::Calm,
             _ if nobody => Reason::NobodyLooks,
             _ if facts.shown.ocean == moment(looks) || facts.shown.ocean == moment(true) => Reason::Unchanged,
@@ -92,7 +101,7 @@ fn plan_grid(facts: &Facts, plan: &mut FramePlan, grid: &Grid, nobody: bool) {
         return;
     }
     let reason = if !facts.present {
-        Reason::Headless
+        facts.absent()
     } else if nobody {
         Reason::NobodyLooks
     } else if !grid.is_awake() {

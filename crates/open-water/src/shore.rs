@@ -26,6 +26,10 @@ impl OpenWater {
     pub fn set_land(&mut self, land: Option<Land>) -> Result<(), OpenWaterError> {
         let terrain = land.map(|land| Terrain::new(land, self.shore.level)).transpose()?;
         self.check_carriers(terrain.as_ref())?;
+        #[cfg(feature = "gpu")]
+        if let Some(gpu) = &mut self.gpu {
+            gpu.room_for_land(terrain.as_ref().map(|terrain| terrain.bed().size()))?;
+        }
         self.rebuild_shore(terrain)
     }
 

@@ -210,7 +210,7 @@ impl OpenWater {
         }
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
-            gpu.remote.tick(&mut self.grids);
+            gpu.tick_grids(&mut self.grids);
         }
         self.grids.cut_holes();
         self.note_hulls();

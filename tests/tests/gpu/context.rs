@@ -37,13 +37,35 @@ impl Context {
 
     /// Likewise with optional features (for measurements).
     pub(crate) fn with_features(features: wgpu::Features) -> Self {
-        let (device, queue) = pollster::block_on(adapter().request_device(&wgpu::DeviceDescriptor {
+        Self::of(adapter(), features, wgpu::Limits::default())
+    }
+
+    /// Likewise with these limits, which the adapter has.
+    pub(crate) fn with_limits(limits: wgpu::Limits) -> Self {
+        Self::of(adapter(), wgpu::Features::empty(), limits)
+    }
+
+    /// A device on which nothing finds memory; `None` where wgpu cannot make one.
+    pub(crate) fn starved() -> Option<Self> {
+        let mut desc = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        desc.memory_budget_thresholds.for_resource_creation = Some(0);
+        let name = adapter().get_info().name;
+        let adapters = pollster::block_on(wgpu::Instance::new(desc).enumerate_adapters(wgpu::Backends::VULKAN));
+        let adapter = adapters.into_iter().find(|adapter| adapter.get_info().name == name)?;
+        let context = Self::of(&adapter, wgpu::Features::empty(), wgpu::Limits::default());
+        // Drivers that do not tell of their memory have no such threshold.
+        context.buffer(&[0u32; 4]);
+        (!context.take_errors().is_empty()).then_some(context)
+    }
+
+    fn of(adapter: &wgpu::Adapter, features: wgpu::Features, limits: wgpu::Limits) -> Self {
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("test"),
             required_features: features,
-            required_limits: wgpu::Limits::default(),
+            required_limits: limits,
             ..Default::default()
         }))
-        .expect("the adapter gives a device with default limits");
+        .expect("the adapter gives a device with these limits");
         let errors = Arc::new(Mutex::new(Vec::new()));
         let seen = errors.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {

@@ -4,6 +4,7 @@
 //! command that sets one up.
 
 mod context;
+mod fault;
 mod grid_dispersive;
 mod grid_draw;
 mod grid_medium;

@@ -13,27 +13,27 @@ use open_water_shaders::surface;
 
 use crate::context::Context;
 
-const DT: f32 = 1.0 / 60.0;
+pub(crate) const DT: f32 = 1.0 / 60.0;
 const SENTINEL: f32 = -12345.0;
 
-fn view() -> [View; 1] {
+pub(crate) fn view() -> [View; 1] {
     [View { eye: Vec3::new(0.0, 5.0, 0.0), pixel_angle: 1e-3 }]
 }
 
-fn calm() -> OpenWaterDesc {
+pub(crate) fn calm() -> OpenWaterDesc {
     let mut desc = Preset::Low.water();
     desc.sea.partitions.clear();
     desc
 }
 
-struct Scene {
-    water: OpenWater,
-    store: BodyStates,
-    boat: BodyId,
+pub(crate) struct Scene {
+    pub(crate) water: OpenWater,
+    pub(crate) store: BodyStates,
+    pub(crate) boat: BodyId,
 }
 
 /// A boat with its grid and a few floats.
-fn scene(context: Option<&Context>, desc: OpenWaterDesc) -> Scene {
+pub(crate) fn scene(context: Option<&Context>, desc: OpenWaterDesc) -> Scene {
     let mut water = match context {
         Some(c) => OpenWater::new(&c.device, &c.queue, desc).unwrap(),
         None => OpenWater::headless(desc).unwrap(),
@@ -61,7 +61,7 @@ fn scene(context: Option<&Context>, desc: OpenWaterDesc) -> Scene {
 }
 
 impl Scene {
-    fn frame(&mut self, context: Option<&Context>, dt: f32, consumers: Consumers) -> FramePlan {
+    pub(crate) fn frame(&mut self, context: Option<&Context>, dt: f32, consumers: Consumers) -> FramePlan {
         for tick in self.water.advance(dt) {
             self.water.tick(tick, &mut self.store).unwrap();
         }
@@ -74,7 +74,7 @@ impl Scene {
 }
 
 /// `surface_at` of the device at these points: height and normal.
-fn probe(context: &Context, water: &OpenWater, points: &[Vec2]) -> Vec<[f32; 4]> {
+pub(crate) fn probe(context: &Context, water: &OpenWater, points: &[Vec2]) -> Vec<[f32; 4]> {
     probe_group(context, water.surface_layout().unwrap(), water.surface_bind_group().unwrap(), points)
 }
 
@@ -101,7 +101,7 @@ fn probe_group(
     context.read(&output)
 }
 
-fn points(around: Vec3) -> Vec<Vec2> {
+pub(crate) fn points(around: Vec3) -> Vec<Vec2> {
     // The golden ratio's spiral: spread evenly, on no lattice.
     let spiral = |i: u32| Vec2::from_angle(i as f32 * 2.399_963) * 0.4 * (i as f32).sqrt();
     (0..10_000).map(|i| Vec2::new(around.x, around.z) + spiral(i)).collect()

@@ -73,6 +73,13 @@ impl RemoteGrid {
     pub(crate) fn is_awake(&self) -> bool {
         self.awake
     }
+
+    /// Its device is gone, and its waves with it.
+    pub(crate) fn end(&mut self) {
+        self.awake = false;
+        self.sources.clear();
+        self.mirror.still();
+    }
 }
 
 /// All of them on the device.
@@ -102,6 +109,30 @@ impl RemoteGrids {
             ring: Readback::new(&self.device, "grid readback", bytes, SLOTS),
             mirror: Mirror::new(desc.cells, desc.cell_size),
         })
+    }
+
+    /// Makes what the grids need of the device.
+    pub(crate) fn prepare(&mut self) {
+        self.grids.prepare(&self.device);
+    }
+
+    /// Puts a grid where another one was, on another device.
+    pub(crate) fn place(&mut self, grid: &mut RemoteGrid, old: &RemoteGrid) {
+        let window = old.window;
+        let middle =
+            |k: usize| (window.corner[k] as f64 + 0.5 * f64::from(window.cells[k])) * f64::from(window.cell_size[k]);
+        self.grids.set_nested(grid.id, old.nested);
+        self.grids.center_on(grid.id, DVec2::new(middle(0), middle(1)));
+        grid.window = self.grids.window(grid.id);
+        grid.hole = self.grids.hole(grid.id, 1.0);
+        grid.nested = old.nested;
+        grid.holes.clone_from(&old.holes);
+    }
+
+    /// Takes back what was added last, for which there was no room.
+    pub(crate) fn take_back(&mut self, id: GpuGridId) {
+        self.grids.remove(id);
+        self.grids.unprepare();
     }
 
     pub(crate) fn remove(&mut self, id: GpuGridId) {
@@ -194,6 +225,12 @@ impl OpenWater {
     /// GPU-homed grids step and come back whether anybody looks or not: else the water would depend on the view.
     pub(crate) fn plan_remote(&self, plan: &mut FramePlan) {
         let Some(gpu) = &self.gpu else { return };
+        if gpu.lost {
+            let lost = self.grids.iter().filter(|grid| matches!(grid.sim, Sim::Gpu(_)));
+            plan.skipped
+                .extend(lost.map(|grid| Skipped { work: SkippedWork::Grid(grid.id), reason: Reason::DeviceLost }));
+            return;
+        }
         let pending = gpu.remote.grids.pending_dispatches() as u32;
         if pending > 0 {
             plan.work.push(Work::GridSteps { dispatches: pending });

@@ -1,18 +1,29 @@
 //! What a host with a device calls.
 
+use super::limits;
 use crate::plan::FramePlan;
 use crate::water::OpenWater;
 
 impl OpenWater {
-    /// What the water needs of a device: no optional feature, WebGPU's default limits.
+    /// What to ask of a device: no optional feature, WebGPU's default limits. It leaves room for the host's own passes; the
+    /// water itself makes do with [`Self::least_limits`].
     pub fn required_limits() -> wgpu::Limits {
-        super::required_limits()
+        wgpu::Limits::default()
+    }
+
+    /// The least limits of a device that runs the water. Seas of large cascades and large land need larger textures, and
+    /// say so.
+    pub fn least_limits() -> wgpu::Limits {
+        limits::least()
     }
 
     /// Records the plan's work into the host's encoder. Uploads go through the queue and hold for everything that is
-    /// submitted next, so encode once per submission. Does nothing without a device.
+    /// submitted next, so encode once per submission. Does nothing without a device, nor on one that is lost
+    /// ([`Self::is_device_lost`]).
     pub fn encode(&mut self, plan: &FramePlan, encoder: &mut wgpu::CommandEncoder) {
-        if let Some(gpu) = &mut self.gpu {
+        if let Some(gpu) = &mut self.gpu
+            && gpu.is_sound()
+        {
             gpu.encode(plan, self.ocean.as_ref(), &mut self.grids, encoder);
         }
     }

@@ -30,14 +30,15 @@ pub(crate) struct Land {
 }
 
 impl Land {
-    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, texels: &LandTexels) -> Result<Self, OpenWaterError> {
+    /// Room for rasters of that size.
+    pub(crate) fn new(device: &wgpu::Device, size: [u32; 2]) -> Result<Self, OpenWaterError> {
         let most = device.limits().max_texture_dimension_2d;
-        let needed = texels.size[0].max(texels.size[1]);
+        let needed = size[0].max(size[1]);
         if needed > most {
             let limit = "max_texture_dimension_2d";
             return Err(OpenWaterError::DeviceLimit { limit, found: most.into(), needed: needed.into() });
         }
-        let [width, height] = texels.size;
+        let [width, height] = size;
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("surface_land"),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: LAYERS },
@@ -52,9 +53,7 @@ impl Land {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
-        let mut land = Self { texture, view, corner: texels.corner, texel: texels.texel };
-        land.write(queue, texels);
-        Ok(land)
+        Ok(Self { texture, view, corner: DVec2::ZERO, texel: 1.0 })
     }
 
     /// Replaces what the texture holds by a raster of the same size.

@@ -3,9 +3,11 @@
 //! Everything that runs on the GPU is decided by [`FramePlan`](crate::FramePlan) and recorded by `encode.rs`.
 
 mod encode;
+mod fault;
 pub(crate) mod grids;
 mod host;
 pub(crate) mod land;
+mod limits;
 mod mirror;
 mod surface;
 
@@ -13,7 +15,9 @@ use ocean_spectrum::Ocean;
 use ocean_spectrum::gpu::GpuOcean;
 
 use crate::OpenWaterError;
+use crate::grids::{Grids, Sim};
 use crate::planner::Shown;
+pub use fault::DeviceLoss;
 use surface::SurfaceBinding;
 
 pub(crate) struct Gpu {
@@ -23,6 +27,8 @@ pub(crate) struct Gpu {
     surface: SurfaceBinding,
     pub(crate) remote: grids::RemoteGrids,
     shown: Shown,
+    /// The device is lost, or has failed: nothing is made or recorded any more.
+    pub(crate) lost: bool,
     /// Cells that the pool has room for, and that it never has less.
     pool: [u32; 2],
     /// Time of the last looks, seconds: foam fades by the difference.
@@ -37,30 +43,66 @@ impl Gpu {
         queue: &wgpu::Queue,
         ocean: Option<&Ocean>,
     ) -> Result<Self, OpenWaterError> {
-        check_limits(&device.limits())?;
-        let gpu_ocean = ocean.map(|ocean| GpuOcean::new(device, ocean)).transpose()?;
-        let surface = SurfaceBinding::new(device, gpu_ocean.as_ref());
-        Ok(Self {
-            device: device.clone(),
-            queue: queue.clone(),
-            ocean: gpu_ocean,
-            surface,
-            remote: grids::RemoteGrids::new(device),
-            shown: Shown::default(),
-            pool: [0; 2],
-            looks_time: 0.0,
-            scratch: Vec::new(),
+        limits::check(&device.limits())?;
+        fault::guard(device, "the sea", || {
+            let gpu_ocean = ocean.map(|ocean| GpuOcean::new(device, ocean)).transpose()?;
+            let surface = SurfaceBinding::new(device, gpu_ocean.as_ref());
+            Ok(Self {
+                device: device.clone(),
+                queue: queue.clone(),
+                ocean: gpu_ocean,
+                surface,
+                remote: grids::RemoteGrids::new(device),
+                shown: Shown::default(),
+                lost: false,
+                pool: [0; 2],
+                looks_time: 0.0,
+                scratch: Vec::new(),
+            })
         })
     }
 
     /// The grids have other places in the pool; it grows, and shrinks when most of it is empty.
-    pub(crate) fn resize_pool(&mut self, cells: u32) {
-        self.shown.grids = None;
-        let [room, least] = &mut self.pool;
-        if cells > *room || cells.max(*least) < *room / 4 {
-            *room = cells.max(*least);
-            self.surface.resize_pool(&self.device, self.ocean.as_ref(), *room);
+    ///
+    /// # Errors
+    /// There is no room for them; then it is as it was.
+    pub(crate) fn resize_pool(&mut self, cells: u32) -> Result<(), OpenWaterError> {
+        if self.lost {
+            return Ok(());
         }
+        let [room, least] = self.pool;
+        if cells > room || cells.max(least) < room / 4 {
+            let wanted = cells.max(least);
+            self.check_pool(wanted.into())?;
+            let made = self.guard("the drawn heights of the grids", |gpu| {
+                Ok(gpu.surface.make_pool(&gpu.device, gpu.ocean.as_ref(), wanted))
+            });
+            match made {
+                Ok(made) => self.surface.set_pool(made),
+                error => return fault::or_without(error.map(|_| ())),
+            }
+            self.pool[0] = wanted;
+        }
+        self.shown.grids = None;
+        Ok(())
+    }
+
+    /// Refuses more cells than a device can bind.
+    pub(crate) fn check_pool(&self, cells: u64) -> Result<(), OpenWaterError> {
+        let limits = self.device.limits();
+        let found = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let needed = cells * size_of::<[f32; 2]>() as u64;
+        if needed > found {
+            let limit = "max_storage_buffer_binding_size";
+            return Err(OpenWaterError::DeviceLimit { limit, found, needed });
+        }
+        Ok(())
+    }
+
+    /// Takes over what does not depend on the device.
+    fn inherit(&mut self, old: &Self) {
+        self.pool[1] = old.pool[1];
+        self.looks_time = old.looks_time;
     }
 
     /// Keeps room for grids that come and go while the water runs.
@@ -68,12 +110,65 @@ impl Gpu {
         self.pool[1] = cells;
     }
 
+    /// Makes room for land of that size.
+    ///
+    /// # Errors
+    /// The device has no room for it; nothing has changed then.
+    pub(crate) fn room_for_land(&mut self, size: Option<[u32; 2]>) -> Result<(), OpenWaterError> {
+        match size {
+            Some(size) if !self.lost => {
+                let made = self.guard("the land's rasters", |gpu| gpu.surface.room_for_land(&gpu.device, size));
+                if made.is_err() {
+                    self.surface.let_room_go();
+                }
+                fault::or_without(made)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Ticks the grids that are homed here; on a lost device they are calm.
+    pub(crate) fn tick_grids(&mut self, grids: &mut Grids) {
+        if !self.lost {
+            return self.remote.tick(grids);
+        }
+        for grid in grids.iter_mut() {
+            if let Sim::Gpu(grid) = &mut grid.sim {
+                grid.end();
+            }
+        }
+    }
+
     /// Replaces the land that the composite surface reads.
     ///
     /// # Errors
-    /// The rasters are larger than the device's textures may be.
+    /// The device has no room for it.
     pub(crate) fn set_land(&mut self, texels: Option<&land::LandTexels>) -> Result<(), OpenWaterError> {
-        self.surface.set_land(&self.device, &self.queue, self.ocean.as_ref(), texels)
+        if self.lost {
+            return Ok(());
+        }
+        let set = self.guard("the land's rasters", |gpu| {
+            gpu.surface.set_land(&gpu.device, &gpu.queue, gpu.ocean.as_ref(), texels)
+        });
+        fault::or_without(set)
+    }
+
+    /// Adds a grid.
+    pub(crate) fn add_grid(&mut self, desc: wave_grid::GridDesc) -> Result<grids::RemoteGrid, OpenWaterError> {
+        if self.lost {
+            return Err(OpenWaterError::DeviceLost);
+        }
+        let mut id = None;
+        let added = self.guard("a grid homed on the GPU", |gpu| {
+            let added = gpu.remote.add(desc)?;
+            id = Some(added.id);
+            gpu.remote.prepare();
+            Ok(added)
+        });
+        if let (Err(_), Some(id)) = (&added, id) {
+            self.remote.take_back(id);
+        }
+        added
     }
 
     pub(crate) fn shown(&self) -> Shown {
@@ -83,31 +178,4 @@ impl Gpu {
     pub(crate) fn surface(&self) -> &SurfaceBinding {
         &self.surface
     }
-}
-
-/// What the water needs of a device: WebGPU's default limits.
-pub(crate) fn required_limits() -> wgpu::Limits {
-    wgpu::Limits::default()
-}
-
-fn check_limits(found: &wgpu::Limits) -> Result<(), OpenWaterError> {
-    let needed = required_limits();
-    let pairs = [
-        ("max_storage_buffers_per_shader_stage", found.max_storage_buffers_per_shader_stage, 6),
-        ("max_sampled_textures_per_shader_stage", found.max_sampled_textures_per_shader_stage, 4),
-        ("max_compute_invocations_per_workgroup", found.max_compute_invocations_per_workgroup, 256),
-        (
-            "max_compute_workgroup_storage_size",
-            found.max_compute_workgroup_storage_size,
-            needed.max_compute_workgroup_storage_size,
-        ),
-        ("max_bind_groups", found.max_bind_groups, 2),
-        ("max_texture_dimension_2d", found.max_texture_dimension_2d, 2048),
-    ];
-    for (limit, found, needed) in pairs {
-        if found < needed {
-            return Err(OpenWaterError::DeviceLimit { limit, found: found.into(), needed: needed.into() });
-        }
-    }
-    Ok(())
 }

@@ -21,6 +21,8 @@ pub(crate) struct SurfaceBinding {
     /// Stands in for the cascades of a calm sea, and for the land of the open sea.
     blank: wgpu::TextureView,
     land: Option<Land>,
+    /// Room for the land to come.
+    room: Option<Land>,
     group: wgpu::BindGroup,
 }
 
@@ -60,12 +62,39 @@ impl SurfaceBinding {
         let pool = pool(device, 1);
         let views = Views { ocean, land: None, blank: &blank };
         let group = group(device, &layout, &table, &pool, &sampler, views);
-        Self { layout, table, pool, sampler, blank, land: None, group }
+        Self { layout, table, pool, sampler, blank, land: None, room: None, group }
     }
 
-    pub(crate) fn resize_pool(&mut self, device: &wgpu::Device, ocean: Option<&GpuOcean>, cells: u32) {
-        self.pool = pool(device, cells.max(1));
-        self.bind(device, ocean);
+    /// A pool of another size, and the group that has it.
+    pub(crate) fn make_pool(
+        &self,
+        device: &wgpu::Device,
+        ocean: Option<&GpuOcean>,
+        cells: u32,
+    ) -> (wgpu::Buffer, wgpu::BindGroup) {
+        let pool = pool(device, cells.max(1));
+        let views = Views { ocean, land: self.land.as_ref(), blank: &self.blank };
+        let group = group(device, &self.layout, &self.table, &pool, &self.sampler, views);
+        (pool, group)
+    }
+
+    pub(crate) fn set_pool(&mut self, (pool, group): (wgpu::Buffer, wgpu::BindGroup)) {
+        (self.pool, self.group) = (pool, group);
+    }
+
+    /// Makes room for land of that size.
+    ///
+    /// # Errors
+    /// The rasters are larger than the device's textures may be.
+    pub(crate) fn room_for_land(&mut self, device: &wgpu::Device, size: [u32; 2]) -> Result<(), OpenWaterError> {
+        if self.land.as_ref().is_none_or(|land| land.size() != size) {
+            self.room = Some(Land::new(device, size)?);
+        }
+        Ok(())
+    }
+
+    pub(crate) fn let_room_go(&mut self) {
+        self.room = None;
     }
 
     /// Replaces the land. The group changes when land comes, goes or has another size. The table tells of it when it is
@@ -87,7 +116,12 @@ impl SurfaceBinding {
                 land.write(queue, texels);
                 return Ok(());
             }
-            (Some(texels), land) => *land = Some(Land::new(device, queue, texels)?),
+            (Some(texels), land) => {
+                let room = self.room.take().filter(|room| room.size() == texels.size);
+                let mut new = room.map_or_else(|| Land::new(device, texels.size), Ok)?;
+                new.write(queue, texels);
+                *land = Some(new);
+            }
         }
         self.bind(device, ocean);
         Ok(())

@@ -185,6 +185,11 @@ impl OpenWater {
     pub fn set_wakes(&mut self, desc: Option<WakesDesc>) -> Result<(), OpenWaterError> {
         if let Some(desc) = &desc {
             desc.check(self.clock.dt())?;
+            #[cfg(feature = "gpu")]
+            if let Some(gpu) = &self.gpu {
+                // Those that fade meanwhile, and the game's own.
+                gpu.check_pool(desc.cells.saturating_add(desc.cells / 4 + u64::from(self.grids.pool_cells())))?;
+            }
         }
         let mut wakes = std::mem::take(&mut self.wakes);
         for kept in std::mem::take(&mut wakes.kept) {

@@ -83,6 +83,8 @@ pub(super) struct Buffers {
     /// The dispatches' uniforms as uploaded.
     uniforms: Vec<Slot>,
     upload: Upload,
+    /// Larger ones of those that are there already.
+    ready: [Option<wgpu::Buffer>; 6],
     /// Heights, memory, medium, marks, fields and faces before they grew, until the encoder that copies them is done.
     outgrown: Vec<(Flight, [wgpu::Buffer; 6])>,
 }
@@ -112,6 +114,21 @@ pub(super) struct Groups {
 const STATE_USAGE: wgpu::BufferUsages =
     wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_SRC).union(wgpu::BufferUsages::COPY_DST);
 
+/// Names and sizes of heights, memory, medium, marks, fields and faces.
+fn state_bytes(vectors: u64, water: Bases, felt: [bool; 2]) -> [(&'static str, u64); 6] {
+    let bytes = 16 * vectors;
+    let of_ground = bytes * u64::from(MEDIUM_ARRAYS) / u64::from(ARRAYS);
+    [
+        ("grid heights", bytes),
+        ("grid memory", bytes),
+        ("grid ground", if felt[0] { of_ground } else { 0 }),
+        // Two words a tile.
+        ("grid marks", 8 * vectors / u64::from(TILE * TILE)),
+        ("grid fields", 16 * u64::from(water.fields)),
+        ("grid faces", if felt[1] { 16 * u64::from(water.faces) } else { 0 }),
+    ]
+}
+
 impl Buffers {
     pub(super) fn new(device: &wgpu::Device) -> Self {
         let list = |label, usage, bytes| List::new(device, label, usage, bytes);
@@ -137,6 +154,7 @@ impl Buffers {
             draw_group: None,
             uniforms: Vec::new(),
             upload: Upload::default(),
+            ready: Default::default(),
             outgrown: Vec::new(),
         }
     }
@@ -155,19 +173,13 @@ impl Buffers {
         let before = [&self.heights, &self.memory, &self.ground, &self.marks, &self.fields, &self.faces];
         let before = before.map(wgpu::Buffer::clone);
         let mut grown = false;
-        let bytes = 16 * vectors;
-        let of_ground = bytes * u64::from(MEDIUM_ARRAYS) / u64::from(ARRAYS);
-        for (buffer, label, bytes) in [
-            (&mut self.heights, "grid heights", bytes),
-            (&mut self.memory, "grid memory", bytes),
-            (&mut self.ground, "grid ground", if felt[0] { of_ground } else { 0 }),
-            // Two words a tile.
-            (&mut self.marks, "grid marks", 8 * vectors / u64::from(TILE * TILE)),
-            (&mut self.fields, "grid fields", 16 * u64::from(water.fields)),
-            (&mut self.faces, "grid faces", if felt[1] { 16 * u64::from(water.faces) } else { 0 }),
-        ] {
+        let wanted = state_bytes(vectors, water, felt);
+        let own =
+            [&mut self.heights, &mut self.memory, &mut self.ground, &mut self.marks, &mut self.fields, &mut self.faces];
+        for ((buffer, (label, bytes)), ready) in own.into_iter().zip(wanted).zip(&mut self.ready) {
             if bytes > buffer.size() {
-                let larger = create(device, label, STATE_USAGE, bytes);
+                let ready = ready.take().filter(|ready| ready.size() >= bytes);
+                let larger = ready.unwrap_or_else(|| create(device, label, STATE_USAGE, bytes));
                 encoder.copy_buffer_to_buffer(buffer, 0, &larger, 0, buffer.size());
                 *buffer = larger;
                 grown = true;
@@ -178,6 +190,24 @@ impl Buffers {
             self.draw_group = None;
             self.outgrown.push((Flight::board(encoder), before));
         }
+    }
+
+    /// Makes the buffers that [`Self::reserve_state`] will need, so that it need not.
+    pub(super) fn prepare(&mut self, device: &wgpu::Device, vectors: u64, water: Bases, felt: [bool; 2]) {
+        let own = [&self.heights, &self.memory, &self.ground, &self.marks, &self.fields, &self.faces];
+        for ((buffer, (label, bytes)), ready) in
+            own.into_iter().zip(state_bytes(vectors, water, felt)).zip(&mut self.ready)
+        {
+            let has = ready.as_ref().map_or(0, wgpu::Buffer::size).max(buffer.size());
+            if bytes > has {
+                *ready = Some(create(device, label, STATE_USAGE, bytes));
+            }
+        }
+    }
+
+    /// Lets go of what was prepared and has not been taken.
+    pub(super) fn unprepare(&mut self) {
+        self.ready = Default::default();
     }
 
     /// Takes back the buffers that an encoder should have copied that was dropped.

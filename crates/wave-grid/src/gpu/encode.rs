@@ -4,15 +4,39 @@ use open_water_shaders::grid::{self as shader, DRAW_THREADS, TickParams, TickWat
 
 use super::flight::Flight;
 use super::pack::{self, Kind};
+use super::water::Bases;
 use super::water_pass::WaterGroups;
 use super::{GpuGridId, GpuGrids, MAX_GRIDS, pass};
 
 impl GpuGrids {
-    pub(super) fn reserve(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
+    /// What the grids need of the buffers.
+    fn needs(&self) -> (u64, Bases, [bool; 2]) {
         let felt = self.grids.iter().filter(|grid| grid.cells().is_some());
         let felt = felt.fold([false; 2], |[_, water], grid| [true, water || grid.water.is_some()]);
-        let (vectors, water) = (u64::from(self.state_vectors()), self.water_end());
+        (u64::from(self.state_vectors()), self.water_end(), felt)
+    }
+
+    pub(super) fn reserve(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
+        let (vectors, water, felt) = self.needs();
         self.buffers.reserve_state(device, encoder, vectors, water, felt);
+    }
+
+    /// Makes the memory and the pipelines that the grids need as they are, so that [`Self::encode`] need not: where it
+    /// cannot be made, this is the call that fails (see [`open_water_shaders::pipeline::guarded`]), and
+    /// [`Self::unprepare`] after the grid was removed leaves all as it was.
+    pub fn prepare(&mut self, device: &wgpu::Device) {
+        let (vectors, water, felt) = self.needs();
+        self.buffers.prepare(device, vectors, water, felt);
+        if self.grids.iter().any(|grid| grid.water.is_some() && !grid.removed) {
+            self.passes.need_water(device);
+        }
+    }
+
+    /// Lets go of what was prepared for nothing.
+    pub fn unprepare(&mut self) {
+        self.buffers.unprepare();
+        while self.grids.pop_if(|grid| grid.removed && grid.ticks == 0).is_some() {}
+        self.passes.water = self.passes.water.take().filter(|_| self.grids.iter().any(|grid| grid.water.is_some()));
     }
 
     /// Encodes the queued ticks, and takes what has come back of earlier ones. Submit the encoder, or drop it, before
