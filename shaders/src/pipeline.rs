@@ -1,10 +1,11 @@
-//! Explicit bind group layouts and compute pipelines from a [`Pass`], the [`Readback`] ring, and errors of a device as
-//! values ([`guarded`]).
+//! Explicit bind group layouts and compute pipelines from a [`Pass`], the [`Staging`] ring upwards and the [`Readback`]
+//! ring downwards, and errors of a device as values ([`guarded`]).
 //!
 //! Nothing here submits, blocks, or decides when a pass runs.
 
 mod guard;
 mod readback;
+mod staging;
 
 use std::num::NonZeroU64;
 
@@ -12,6 +13,7 @@ use crate::Pass;
 
 pub use guard::{Injected, Refusal, guarded, inject, is_alive};
 pub use readback::{Readback, Reading};
+pub use staging::{Frame, MAX_FRAMES, Room, Staging};
 
 /// What stands at one binding of a bind group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -78,7 +78,7 @@ fn run_ticks(gpu: &Gpu, grids: &mut GpuGrids, ticks: usize) -> Result<(), CaseEr
     for _ in 0..ticks {
         grids.tick();
     }
-    gpu.run(|encoder| grids.encode(&gpu.device, &gpu.queue, encoder))
+    gpu.frame(|frame| grids.encode(frame))
 }
 
 fn timing(ns: f64) -> Timing {
@@ -142,7 +142,7 @@ fn tick(context: &Context) -> Result<Vec<Row>, CaseError> {
             stir(&mut |source| ids.iter().for_each(|id| _ = grids.add(*id, source)));
             grids.tick();
             let dispatches = grids.pending_dispatches();
-            let _ = gpu.run(|encoder| grids.encode(&gpu.device, &gpu.queue, encoder));
+            let _ = gpu.frame(|frame| grids.encode(frame));
             dispatches
         };
         // Until the wake fills what it will.

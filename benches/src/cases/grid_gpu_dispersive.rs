@@ -79,10 +79,10 @@ fn error(context: &Context) -> Result<Vec<Row>, CaseError> {
             cpu.tick();
             grids.tick();
             let asked = t % 50 == 49;
-            gpu.run(|encoder| {
-                grids.encode(&gpu.device, &gpu.queue, encoder);
+            gpu.frame(|frame| {
+                grids.encode(frame);
                 if asked {
-                    grids.encode_query(&gpu.device, &gpu.queue, encoder, &points);
+                    grids.encode_query(frame, &points);
                 }
             })?;
             if asked {
@@ -130,7 +130,7 @@ fn run_ticks(gpu: &Gpu, grids: &mut GpuGrids, ticks: usize) -> Result<(), CaseEr
     for _ in 0..ticks {
         grids.tick();
     }
-    gpu.run(|encoder| grids.encode(&gpu.device, &gpu.queue, encoder))
+    gpu.frame(|frame| grids.encode(frame))
 }
 
 fn cost(context: &Context) -> Result<Vec<Row>, CaseError> {

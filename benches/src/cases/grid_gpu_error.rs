@@ -71,10 +71,10 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
             cpu.tick();
             grids.tick();
             let asked = t % 50 == 49;
-            gpu.run(|encoder| {
-                grids.encode(&gpu.device, &gpu.queue, encoder);
+            gpu.frame(|frame| {
+                grids.encode(frame);
                 if asked {
-                    grids.encode_query(&gpu.device, &gpu.queue, encoder, &points);
+                    grids.encode_query(frame, &points);
                 }
             })?;
             if asked {

@@ -32,7 +32,7 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
         let mut ocean = Ocean::new(fixtures::ocean(size))?;
         let mut gpu_ocean = GpuOcean::new(&gpu.device, &ocean)?;
         let time = exact_time(&ocean);
-        gpu.run(|encoder| gpu_ocean.encode_fields(&gpu.queue, encoder, &ocean, time))?;
+        gpu.frame(|frame| gpu_ocean.encode_fields(frame, &ocean, time))?;
         let texels = gpu.read_texture(gpu_ocean.fields())?;
         let (layer, cascades) = ((size * size) as usize, ocean.modes().len());
         let mut worst = (0.0f64, "");
@@ -55,10 +55,7 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
             [
                 &mut || {
                     drawn += 1.0 / 60.0;
-                    failed = gpu
-                        .run(|encoder| gpu_ocean.encode_fields(&gpu.queue, encoder, &still, drawn))
-                        .err()
-                        .or(failed.take());
+                    failed = gpu.frame(|frame| gpu_ocean.encode_fields(frame, &still, drawn)).err().or(failed.take());
                 },
                 &mut || {
                     time += 1.0 / 60.0;

@@ -102,14 +102,14 @@ fn compare(
     let mut time = 0.0;
     let mut made = GpuOcean::new(&gpu.device, ocean).ok();
     if let Some(made) = &mut made {
-        made.set_time(&gpu.queue, ocean, 0.0, 0.0);
+        let _ = gpu.frame(|frame| made.set_time(frame, ocean, 0.0, 0.0));
     }
     fastest(
         effort,
         [
             &mut || {
                 time += 1.0 / 60.0;
-                let _ = gpu.run(|encoder| gpu_ocean.encode_fields(&gpu.queue, encoder, ocean, time));
+                let _ = gpu.frame(|frame| gpu_ocean.encode_fields(frame, ocean, time));
             },
             &mut || {
                 let (Some(some), Some(made)) = (&some, &made) else { return };
@@ -132,7 +132,7 @@ fn passes(context: &Context) -> Result<Vec<Row>, CaseError> {
     for &size in context.pick(&[256][..], &[256, 512]) {
         let ocean = Ocean::new(fixtures::ocean(size))?;
         let mut gpu_ocean = GpuOcean::new(&gpu.device, &ocean)?;
-        gpu.run(|encoder| gpu_ocean.encode(&gpu.queue, encoder, &ocean, 0.0, 0.1))?;
+        gpu.frame(|frame| gpu_ocean.encode(frame, &ocean, 0.0, 0.1))?;
         let passes = [gpu_ocean.field_passes(), gpu_ocean.look_passes()].concat();
         for (i, pass) in passes.iter().enumerate() {
             let run = |repeats: usize| {

@@ -119,9 +119,9 @@ fn looks(gpu: &Gpu, ocean: &Ocean, time: f64, points: &[Vec2], footprint: f32) -
     gpu.queue.write_buffer(&asked, 0, &bytes);
     let own_group =
         pipeline::bind_group(device, "probe", &own, &[asked.as_entire_binding(), answers.as_entire_binding()]);
-    gpu.run(|encoder| {
-        gpu_ocean.encode(&gpu.queue, encoder, ocean, time, 0.0);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+    gpu.frame(|frame| {
+        gpu_ocean.encode(frame, ocean, time, 0.0);
+        let mut pass = frame.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&probe);
         pass.set_bind_group(0, &group, &[]);
         pass.set_bind_group(1, &own_group, &[]);

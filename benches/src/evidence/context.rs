@@ -1,6 +1,10 @@
 //! What a case is given: how much to do, a device, and the machine's limits.
 
-use std::{cell::OnceCell, path::PathBuf};
+use std::cell::OnceCell;
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use open_water_shaders::pipeline::{Frame, Staging};
 
 use super::{Adapter, CaseError, Effort};
 
@@ -12,6 +16,7 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// What it is.
     pub adapter: Adapter,
+    staging: Mutex<Staging>,
 }
 
 impl Gpu {
@@ -32,13 +37,22 @@ impl Gpu {
             backend: info.backend.to_string(),
             driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
         };
-        Ok(Self { device, queue, adapter })
+        Ok(Self { staging: Mutex::new(Staging::new(&device)), device, queue, adapter })
     }
 
     /// Submits what `record` writes and waits until the device has done it.
     pub fn run(&self, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<(), CaseError> {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         record(&mut encoder);
+        self.queue.submit([encoder.finish()]);
+        self.wait()
+    }
+
+    /// As [`Self::run`], with uploads.
+    pub fn frame(&self, record: impl FnOnce(&mut Frame<'_>)) -> Result<(), CaseError> {
+        let mut staging = self.staging.lock().map_err(|_| "a case panicked")?;
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        record(&mut staging.frame(&mut encoder).ok_or("the device is behind")?);
         self.queue.submit([encoder.finish()]);
         self.wait()
     }

@@ -30,6 +30,8 @@ pub struct Reports {
     /// 48 cells are shorter than their hulls: such waves ring, and the longest are too slow. Larger cells help;
     /// [`OpenWater::set_wakes`] chooses them by itself. Looked at four times a second at 60 ticks.
     pub long_hulls: u32,
+    /// Frames whose GPU work was left out because the GPU was too far behind.
+    pub behind: u64,
 }
 
 /// The water of a game: the ambient sea, the interactive grids and the bodies, on one clock.

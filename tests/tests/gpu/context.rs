@@ -1,13 +1,15 @@
 //! A device to test on: software adapter first, default WebGPU limits, every validation error a failure.
 
+use std::cell::RefCell;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use open_water_shaders::pipeline::Readback;
+use open_water_shaders::pipeline::{Frame, Readback, Staging};
 
 /// A device of its own; the test fails when it is dropped after an error that nobody looked at.
 pub(crate) struct Context {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
+    staging: RefCell<Staging>,
     errors: Arc<Mutex<Vec<String>>>,
 }
 
@@ -73,7 +75,7 @@ impl Context {
                 seen.push(error.to_string());
             }
         }));
-        Self { device, queue, errors }
+        Self { staging: RefCell::new(Staging::new(&device)), device, queue, errors }
     }
 
     /// The errors so far, which count as looked at.
@@ -103,6 +105,17 @@ impl Context {
         encode(&mut encoder);
         self.queue.submit([encoder.finish()]);
         self.wait();
+    }
+
+    /// Encodes by `encode` with its uploads, submits and waits.
+    pub(crate) fn frame(&self, encode: impl FnOnce(&mut Frame<'_>)) {
+        self.submit(|encoder| self.upload(encoder, encode));
+    }
+
+    /// Encodes by `encode` with its uploads.
+    pub(crate) fn upload(&self, encoder: &mut wgpu::CommandEncoder, encode: impl FnOnce(&mut Frame<'_>)) {
+        let mut staging = self.staging.borrow_mut();
+        encode(&mut staging.frame(encoder).expect("few frames are under way"));
     }
 
     /// Waits for everything submitted.

@@ -183,7 +183,7 @@ fn a_calm_grid_sleeps_and_wakes_without_a_memory() {
         twins.tick();
         if t % 5 == 2 {
             let mut encoder = context.device.create_command_encoder(&Default::default());
-            twins.gpu.encode(&context.device, &context.queue, &mut encoder);
+            context.upload(&mut encoder, |frame| twins.gpu.encode(frame));
         } else {
             twins.encode(&context);
         }

@@ -19,9 +19,9 @@ fn a_source_is_drawn_where_it_stands_with_its_volume() {
     assert!(grids.add(id, Source::Displacement { center: at, radius, volume }));
     grids.tick();
     let pool = context.buffer(&vec![[f32::NAN; 2]; 100 * 70 + 8]);
-    context.submit(|encoder| {
-        grids.encode(&context.device, &context.queue, encoder);
-        grids.encode_draw(&context.device, &context.queue, encoder, &pool, &[(id, 4)], 1.0);
+    context.frame(|frame| {
+        grids.encode(frame);
+        grids.encode_draw(frame, &pool, &[(id, 4)], 1.0);
     });
     let drawn: Vec<[f32; 2]> = context.read(&pool);
     assert!(drawn[..4].iter().chain(&drawn[7004..]).all(|d| d[0].is_nan()), "cells beside the grid were written");

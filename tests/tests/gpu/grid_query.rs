@@ -55,9 +55,9 @@ fn queries_answer_what_the_cpu_does_and_say_how_old_it_is() {
             twins.tick();
         }
         twins.encode(&context);
-        context.submit(|encoder| {
-            assert!(twins.gpu.encode_query(&context.device, &context.queue, encoder, &points));
-            assert!(!twins.gpu.encode_query(&context.device, &context.queue, encoder, &[]));
+        context.frame(|frame| {
+            assert!(twins.gpu.encode_query(frame, &points));
+            assert!(!twins.gpu.encode_query(frame, &[]));
         });
         let mut expected = vec![GridSample::default(); points.len()];
         for pair in &twins.pairs {

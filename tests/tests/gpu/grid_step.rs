@@ -60,7 +60,7 @@ impl Twins {
     }
 
     pub(crate) fn encode(&mut self, context: &Context) {
-        context.submit(|encoder| self.gpu.encode(&context.device, &context.queue, encoder));
+        context.frame(|frame| self.gpu.encode(frame));
     }
 
     /// Largest difference of each grid's drawn heights and foam, and the largest height.
@@ -68,8 +68,8 @@ impl Twins {
         let cells: u32 = (self.pool.size() / 8) as u32;
         context.queue.write_buffer(&self.pool, 0, bytemuck::cast_slice(&vec![SENTINEL; cells as usize]));
         let draws: Vec<_> = self.pairs.iter().map(|p| (p.id, p.base)).collect();
-        context.submit(|encoder| {
-            self.gpu.encode_draw(&context.device, &context.queue, encoder, &self.pool, &draws, alpha);
+        context.frame(|frame| {
+            self.gpu.encode_draw(frame, &self.pool, &draws, alpha);
         });
         let pool: Vec<[f32; 2]> = context.read(&self.pool);
         let mut expected = vec![SENTINEL; pool.len()];
@@ -224,7 +224,7 @@ fn ticks_survive_an_encoder_that_is_dropped() {
         // The first is dropped when the buffers grow to the grid's size, one is dropped after another.
         if [0, 4, 5, 9].contains(&t) {
             let mut encoder = context.device.create_command_encoder(&Default::default());
-            twins.gpu.encode(&context.device, &context.queue, &mut encoder);
+            context.upload(&mut encoder, |frame| twins.gpu.encode(frame));
             let finished = (t > 4).then(|| encoder.finish());
             drop(finished);
         } else if t != 2 {
@@ -235,7 +235,7 @@ fn ticks_survive_an_encoder_that_is_dropped() {
             let _ = twins.gpu.insert(desc).unwrap();
             twins.tick();
             let mut encoder = context.device.create_command_encoder(&Default::default());
-            twins.gpu.encode(&context.device, &context.queue, &mut encoder);
+            context.upload(&mut encoder, |frame| twins.gpu.encode(frame));
         }
     }
     let [height, _, most] = twins.compare(&context, 1.0)[0];

@@ -32,7 +32,7 @@ fn prefill(context: &Context, gpu: &GpuOcean) {
 /// All layers of the fields at a time.
 fn fields(context: &Context, gpu: &mut GpuOcean, ocean: &Ocean, t: f64) -> Vec<Vec<[f32; 4]>> {
     prefill(context, gpu);
-    context.submit(|encoder| gpu.encode_fields(&context.queue, encoder, ocean, t));
+    context.frame(|frame| gpu.encode_fields(frame, ocean, t));
     let texels: Vec<[f32; 4]> = context.read_texture(gpu.fields(), 0);
     let layers: Vec<_> = texels.chunks((gpu.size() * gpu.size()) as usize).map(<[_]>::to_vec).collect();
     assert_eq!(layers.len(), 2 * gpu.cascades() as usize);
@@ -126,7 +126,7 @@ fn another_sea_is_taken_over_and_another_shape_refused() {
     let larger = Ocean::new(desc(64, &[300.0, 150.0])).expect("valid");
     let error = gpu.check(&larger).expect_err("another size");
     assert!(matches!(error, GpuError::InvalidValue { field: "size of the largest cascade", value: 64.0, .. }));
-    context.submit(|encoder| gpu.encode_fields(&context.queue, encoder, &larger, 20.0));
+    context.frame(|frame| gpu.encode_fields(frame, &larger, 20.0));
     assert_eq!(fields(&context, &mut gpu, &changed, 20.0), after, "a sea that does not fit is ignored");
 }
 

@@ -55,7 +55,7 @@ fn mips_match_a_box_filter() {
     for size in [16, 64, 512] {
         let ocean = sea(size, 15.0, 1.0);
         let mut gpu = GpuOcean::new(&context.device, &ocean).expect("fits");
-        context.submit(|encoder| gpu.encode(&context.queue, encoder, &ocean, 64.0, 0.1));
+        context.frame(|frame| gpu.encode(frame, &ocean, 64.0, 0.1));
         let fields: Vec<[f32; 4]> = context.read_texture(gpu.fields(), 0);
         assert_eq!(gpu.looks().mip_level_count(), size.ilog2());
 
@@ -86,7 +86,7 @@ fn foam_stays_between_0_and_1_and_fades() {
     let rough = sea(64, 20.0, 1.3);
     let mut gpu = GpuOcean::new(&context.device, &rough).expect("fits");
     for i in 0..20u32 {
-        context.submit(|encoder| gpu.encode(&context.queue, encoder, &rough, f64::from(i), 0.1));
+        context.frame(|frame| gpu.encode(frame, &rough, f64::from(i), 0.1));
     }
     let before = foam(&context, &gpu);
     assert!(before.iter().all(|f| (0.0..=1.0).contains(f)));
@@ -94,15 +94,15 @@ fn foam_stays_between_0_and_1_and_fades() {
 
     // A sea without horizontal displacement breaks nowhere: what is left is old foam, fading.
     let smooth = sea(64, 20.0, 0.0);
-    context.submit(|encoder| gpu.encode(&context.queue, encoder, &smooth, 0.0, FOAM_SECONDS));
+    context.frame(|frame| gpu.encode(frame, &smooth, 0.0, FOAM_SECONDS));
     let after = foam(&context, &gpu);
     let factor = (-1.0f32).exp();
     for (before, after) in before.iter().zip(&after) {
         assert!((after - before * factor).abs() < 2e-3, "{before} became {after}");
     }
-    context.submit(|encoder| gpu.encode(&context.queue, encoder, &smooth, 0.0, f32::NAN));
+    context.frame(|frame| gpu.encode(frame, &smooth, 0.0, f32::NAN));
     assert_eq!(foam(&context, &gpu), after, "a time that is not a number fades nothing");
-    context.submit(|encoder| gpu.encode(&context.queue, encoder, &smooth, 0.0, 1e9));
+    context.frame(|frame| gpu.encode(frame, &smooth, 0.0, 1e9));
     assert!(foam(&context, &gpu).iter().all(|f| (0.0..1e-3).contains(f)));
 }
 
@@ -112,7 +112,7 @@ fn foam_grows_with_the_wind() {
     let cover = [6.0, 12.0, 24.0].map(|wind| {
         let ocean = sea(128, wind, 1.0);
         let mut gpu = GpuOcean::new(&context.device, &ocean).expect("fits");
-        context.submit(|encoder| gpu.encode(&context.queue, encoder, &ocean, 96.0, 0.0));
+        context.frame(|frame| gpu.encode(frame, &ocean, 96.0, 0.0));
         let foams = foam(&context, &gpu);
         // Summed over the two cascades, as the composite surface does.
         2.0 * foams.iter().sum::<f32>() / foams.len() as f32
@@ -125,7 +125,7 @@ fn looks_are_left_alone_when_only_fields_are_asked_for() {
     let context = Context::new();
     let ocean = sea(32, 15.0, 1.0);
     let mut gpu = GpuOcean::new(&context.device, &ocean).expect("fits");
-    context.submit(|encoder| gpu.encode_fields(&context.queue, encoder, &ocean, 64.0));
+    context.frame(|frame| gpu.encode_fields(frame, &ocean, 64.0));
     assert!(level(&context, &gpu, 0).iter().flatten().all(|&x| x == 0.0));
     assert_eq!(gpu.look_dispatches(), 2);
 }

@@ -30,9 +30,9 @@ fn ask(context: &Context, ocean: &Ocean, points: &[(Vec2, f32)]) -> Vec<([f32; 4
     let asked = context.buffer(&points);
     let answers = context.buffer(&vec![[f32::NAN; 4]; 2 * points.len()]);
     let own_group = bind_group(device, "probe", &own, &[asked.as_entire_binding(), answers.as_entire_binding()]);
-    context.submit(|encoder| {
-        gpu.encode(&context.queue, encoder, ocean, TIME, 0.0);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+    context.frame(|frame| {
+        gpu.encode(frame, ocean, TIME, 0.0);
+        let mut pass = frame.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&probe);
         pass.set_bind_group(0, &group, &[]);
         pass.set_bind_group(1, &own_group, &[]);

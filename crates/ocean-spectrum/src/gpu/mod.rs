@@ -1,6 +1,6 @@
 //! The sea's fields on the GPU, from the same modes as on the CPU.
 //!
-//! [`GpuOcean`] records compute work into the host's encoder; it never submits, polls or blocks. It answers no queries:
+//! [`GpuOcean`] records compute work into the host's encoder, in a [`Frame`] of uploads; it never submits or blocks. It answers no queries:
 //! those are the CPU's, from [`crate::Ocean`].
 //!
 //! All cascades are synthesised at the size of the largest: a cascade's modes do not depend on its size, so the surface
@@ -32,6 +32,7 @@ pub use error::GpuError;
 use foam::Divergence;
 pub use foam::{FOAM_SECONDS, FOAM_THRESHOLD};
 use looks::Looks;
+pub use open_water_shaders::pipeline::{Frame, Staging};
 pub use surface::{surface_layout, surface_wgsl};
 pub use synthesis::FftKernel;
 use synthesis::Synthesis;
@@ -99,12 +100,12 @@ impl GpuOcean {
 
     /// Sets the time for the work that is encoded next: `t` in seconds, and the seconds since the last looks, by which
     /// foam fades (not finite or negative: 0). Mode sets that changed are uploaded, also those of another sea; foam
-    /// stays. A sea that does not pass [`Self::check`] is ignored. It holds for everything up to the next submit.
-    pub fn set_time(&mut self, queue: &wgpu::Queue, ocean: &Ocean, t: f64, foam_dt: f32) {
+    /// stays. A sea that does not pass [`Self::check`] is ignored. It holds for what the frame's encoder does from here on.
+    pub fn set_time(&mut self, frame: &mut Frame<'_>, ocean: &Ocean, t: f64, foam_dt: f32) {
         if self.check(ocean).is_err() {
             return;
         }
-        self.synthesis.set(queue, ocean, t);
+        self.synthesis.set(frame, ocean, t);
         self.divergence.set(ocean, t);
         let moment = ocean.moment_at(t);
         let mut params = OceanParams {
@@ -124,7 +125,7 @@ impl GpuOcean {
         for (c, cascade) in (0..ocean.modes().len()).zip(&mut params.cascades) {
             cascade.place.offset = ocean.offset(c).into();
         }
-        queue.write_buffer(&self.params_buffer, 0, bytemuck::bytes_of(&params));
+        frame.write(&self.params_buffer, 0, bytemuck::bytes_of(&params));
     }
 
     /// Records the synthesis of the fields.
@@ -138,26 +139,19 @@ impl GpuOcean {
     }
 
     /// Fields and looks at time `t` in one compute pass; see [`Self::set_time`].
-    pub fn encode(
-        &mut self,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        ocean: &Ocean,
-        t: f64,
-        foam_dt: f32,
-    ) {
-        self.set_time(queue, ocean, t, foam_dt);
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("ocean"), timestamp_writes: None });
+    pub fn encode(&mut self, frame: &mut Frame<'_>, ocean: &Ocean, t: f64, foam_dt: f32) {
+        self.set_time(frame, ocean, t, foam_dt);
+        let of = wgpu::ComputePassDescriptor { label: Some("ocean"), timestamp_writes: None };
+        let mut pass = frame.encoder.begin_compute_pass(&of);
         self.record_fields(&mut pass);
         self.record_looks(&mut pass);
     }
 
     /// Fields alone at time `t` in one compute pass: for when nothing looks at foam or filtered fields.
-    pub fn encode_fields(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, ocean: &Ocean, t: f64) {
-        self.set_time(queue, ocean, t, 0.0);
-        let mut pass = encoder
-            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("ocean fields"), timestamp_writes: None });
+    pub fn encode_fields(&mut self, frame: &mut Frame<'_>, ocean: &Ocean, t: f64) {
+        self.set_time(frame, ocean, t, 0.0);
+        let of = wgpu::ComputePassDescriptor { label: Some("ocean fields"), timestamp_writes: None };
+        let mut pass = frame.encoder.begin_compute_pass(&of);
         self.record_fields(&mut pass);
     }
 

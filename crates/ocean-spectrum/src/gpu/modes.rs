@@ -1,6 +1,7 @@
 //! The modes as textures: a read from a texture is fast on every adapter.
 
 use bytemuck::{Pod, cast_slice};
+use open_water_shaders::pipeline::Frame;
 
 use super::upload::{self, Shape};
 use crate::{CascadeModes, Ocean};
@@ -13,6 +14,8 @@ pub(super) struct ModeTextures {
     turns: wgpu::Texture,
     /// [`crate::Moment::sets`] of what they hold; 0 for nothing yet.
     held: [u64; 2],
+    /// [`Frame::losses`] as they were written.
+    losses: u64,
 }
 
 fn texture(device: &wgpu::Device, label: &str, size: wgpu::Extent3d, format: wgpu::TextureFormat) -> wgpu::Texture {
@@ -29,15 +32,10 @@ fn texture(device: &wgpu::Device, label: &str, size: wgpu::Extent3d, format: wgp
 }
 
 /// Writes layers from `base` on.
-fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, base: u32, layers: u32, texels: &[u8]) {
+fn write(frame: &mut Frame<'_>, texture: &wgpu::Texture, base: u32, layers: u32, texels: &[u8]) -> bool {
     let size = wgpu::Extent3d { depth_or_array_layers: layers, ..texture.size() };
-    let rows = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some(texels.len() as u32 / (size.height * layers)),
-        rows_per_image: Some(size.height),
-    };
     let origin = wgpu::Origin3d { z: base, ..wgpu::Origin3d::ZERO };
-    queue.write_texture(wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() }, texels, rows, size);
+    frame.write_texels(wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() }, size, texels)
 }
 
 /// Cells of all cascades in arrays of `size`: modes do not depend on the array that holds them.
@@ -65,6 +63,7 @@ impl ModeTextures {
             amplitudes: texture(device, "ocean amplitudes", size, wgpu::TextureFormat::Rgba32Float),
             turns: texture(device, "ocean turns", size, wgpu::TextureFormat::R32Uint),
             held: [0; 2],
+            losses: 0,
         }
     }
 
@@ -74,15 +73,23 @@ impl ModeTextures {
     }
 
     /// Uploads the mode sets of a time, as far as they are not held.
-    pub(super) fn set(&mut self, queue: &wgpu::Queue, ocean: &Ocean, t: f64) {
+    pub(super) fn set(&mut self, frame: &mut Frame<'_>, ocean: &Ocean, t: f64) {
         let sets = ocean.moment_at(t).sets;
         let (first, second) = ocean.mode_sets_at(t);
+        if self.losses != frame.losses() {
+            self.losses = frame.losses();
+            self.held = [0; 2];
+        }
         for (slot, set) in [Some(first), second].into_iter().enumerate() {
             let Some(set) = set.filter(|_| self.held[slot] != sets[slot]) else { continue };
             let (base, count, size) = (slot as u32 * self.shape.count, self.shape.count, self.shape.size);
-            write(queue, &self.amplitudes, base, count, cast_slice(&padded(set, size, |modes| &modes.amp)));
-            write(queue, &self.turns, base, count, cast_slice(&padded(set, size, |modes| &modes.n)));
-            self.held[slot] = sets[slot];
+            let amplitudes = padded(set, size, |modes| &modes.amp);
+            let turns = padded(set, size, |modes| &modes.n);
+            if write(frame, &self.amplitudes, base, count, cast_slice(&amplitudes))
+                && write(frame, &self.turns, base, count, cast_slice(&turns))
+            {
+                self.held[slot] = sets[slot];
+            }
         }
     }
 

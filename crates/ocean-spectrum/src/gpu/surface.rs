@@ -24,7 +24,7 @@ use super::GpuOcean;
 /// `dDx/dz` is left out of it. Maps ([`Ocean::set_amplitudes`](crate::Ocean::set_amplitudes)) do not apply.
 ///
 /// ```
-/// use ocean_spectrum::gpu::{GpuOcean, surface_layout, surface_wgsl};
+/// use ocean_spectrum::gpu::{GpuOcean, Staging, surface_layout, surface_wgsl};
 /// use ocean_spectrum::{Ocean, OceanDesc};
 ///
 /// const VERTEX: &str = "
@@ -42,9 +42,12 @@ use super::GpuOcean;
 ///     (module, layout, group)
 /// }
 ///
-/// /// Every frame, before the pass that draws with that group.
-/// fn frame(queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, sea: &mut GpuOcean, ocean: &Ocean, t: f64, dt: f32) {
-///     sea.encode(queue, encoder, ocean, t, dt);
+/// /// Every frame, before the pass that draws with that group. The staging ring is made once, by `Staging::new(device)`.
+/// fn frame(ring: &mut Staging, encoder: &mut wgpu::CommandEncoder, sea: &mut GpuOcean, ocean: &Ocean, t: f64, dt: f32) {
+///     // None behind a slow GPU: what was encoded last stays in sight.
+///     if let Some(mut frame) = ring.frame(encoder) {
+///         sea.encode(&mut frame, ocean, t, dt);
+///     }
 /// }
 /// ```
 pub fn surface_wgsl(group: u32) -> String {

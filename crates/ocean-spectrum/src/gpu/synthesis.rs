@@ -1,7 +1,7 @@
 //! Modes to fields: one dispatch per stage, each from one texture to the next.
 
 use open_water_shaders::ocean::OceanParams;
-use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_layout};
+use open_water_shaders::pipeline::{Frame, Slot, bind_group, compute_pipeline, group_layout};
 
 use super::GpuPass;
 use super::modes::ModeTextures;
@@ -91,7 +91,7 @@ impl Synthesis {
     }
 
     /// Takes over the mode sets of a time. What two of them need is made when it is needed first.
-    pub(super) fn set(&mut self, queue: &wgpu::Queue, ocean: &Ocean, t: f64) {
+    pub(super) fn set(&mut self, frame: &mut Frame<'_>, ocean: &Ocean, t: f64) {
         let (first, second) = ocean.mode_sets_at(t);
         if !first.iter().map(stages::half).eq(self.halves.iter().copied()) {
             self.halves = first.iter().map(stages::half).collect();
@@ -105,7 +105,7 @@ impl Synthesis {
         if self.is_mixed && self.first[1].is_empty() {
             self.first[1] = self.first_stages(true);
         }
-        self.modes.set(queue, ocean, t);
+        self.modes.set(frame, ocean, t);
     }
 
     fn make_stages(&mut self) {

@@ -1,72 +1,125 @@
 //! Turns a [`FramePlan`] into uploads and dispatches: the only place that does.
+//!
+//! Uploads first, then all dispatches in one compute pass, then what comes back.
 
 use ocean_spectrum::Ocean;
 use ocean_spectrum::gpu::GpuOcean;
+use open_water_shaders::pipeline::{Frame, is_alive};
 
 use super::Gpu;
+use super::grids::RemoteGrids;
 use crate::grids::{Grids, Sim};
 use crate::plan::{FramePlan, Work};
 
+/// What the compute pass holds.
+#[derive(Debug, Clone, Copy, Default)]
+struct Parts {
+    fields: bool,
+    looks: bool,
+    steps: bool,
+    draw: bool,
+}
+
 impl Gpu {
+    /// Returns whether the plan's work was encoded: not while the GPU is too far behind.
     pub(crate) fn encode(
         &mut self,
         plan: &FramePlan,
         ocean: Option<&Ocean>,
         grids: &mut Grids,
         encoder: &mut wgpu::CommandEncoder,
-    ) {
+    ) -> bool {
+        if plan.work.is_empty() {
+            return true;
+        }
+        // Not in its place while the frame writes.
+        let Some(mut staging) = self.staging.take() else { return false };
+        let encoded = staging.frame(encoder).map(|mut frame| self.encode_frame(plan, ocean, grids, &mut frame));
+        if encoded.is_none() && !staging.is_full() {
+            // Nothing can be written: the device is lost, or has no memory left.
+            self.lost = !is_alive(&self.device);
+        }
+        self.staging = Some(staging);
+        encoded.is_some()
+    }
+
+    fn encode_frame(&mut self, plan: &FramePlan, ocean: Option<&Ocean>, grids: &mut Grids, frame: &mut Frame<'_>) {
+        let parts = self.upload(plan, ocean, grids, frame);
+        let Parts { fields, looks, steps, draw } = parts;
+        if fields || steps || draw {
+            let of = wgpu::ComputePassDescriptor { label: Some("water"), ..Default::default() };
+            let mut pass = frame.encoder.begin_compute_pass(&of);
+            if let Some(ocean) = &self.ocean {
+                if fields {
+                    ocean.record_fields(&mut pass);
+                }
+                if looks {
+                    ocean.record_looks(&mut pass);
+                }
+            }
+            if steps {
+                self.remote.record_steps(&mut pass);
+            }
+            if draw {
+                self.remote.record_draw(&mut pass);
+            }
+        }
+        if steps {
+            self.remote.finish_steps(frame);
+        }
+        if draw {
+            RemoteGrids::finish_draw(frame, self.surface.pool(), plan, grids);
+        }
+    }
+
+    fn upload(&mut self, plan: &FramePlan, ocean: Option<&Ocean>, grids: &mut Grids, frame: &mut Frame<'_>) -> Parts {
         let moment = (plan.tick, plan.alpha);
+        let mut parts = Parts::default();
+        self.shown = self.held(frame.losses());
         for work in &plan.work {
             match *work {
                 Work::Table => {
                     self.shown.listed = grids.iter().filter(|grid| grid.is_awake()).count();
                     self.shown.shore = plan.shore;
                     let size = self.ocean.as_ref().map_or(1, GpuOcean::size);
-                    self.surface.write_table(&self.queue, plan.time, ocean, grids.iter(), plan.shore.level, size);
+                    self.surface.write_table(frame, plan.time, ocean, grids.iter(), plan.shore.level, size);
                 }
                 Work::GridUpload { grid, .. } => {
                     if let Some(grid) = grids.get_mut(grid) {
-                        self.upload(grid, plan.alpha);
+                        self.upload_grid(frame, grid, plan.alpha);
                     }
                     self.shown.grids = Some(moment);
                 }
                 Work::Ocean { .. } => {
-                    let looks = plan.work.contains(&Work::OceanLooks);
-                    self.encode_ocean(plan, ocean, looks, encoder);
-                    self.shown.ocean = Some((plan.tick, plan.alpha, looks));
+                    let (Some(gpu), Some(ocean)) = (&mut self.ocean, ocean) else { continue };
+                    parts.fields = true;
+                    parts.looks = plan.work.contains(&Work::OceanLooks);
+                    let foam_dt = (plan.time - self.looks_time).abs() as f32;
+                    gpu.set_time(frame, ocean, plan.time, if parts.looks { foam_dt } else { 0.0 });
+                    if parts.looks {
+                        self.looks_time = plan.time;
+                    }
+                    self.shown.ocean = Some((plan.tick, plan.alpha, parts.looks));
                 }
-                // Recorded with the ocean, in the same compute pass.
+                // Recorded with the ocean.
                 Work::OceanLooks => {}
-                Work::GridSteps { .. } => self.remote.encode_steps(&self.queue, encoder),
+                Work::GridSteps { .. } => parts.steps = self.remote.upload_steps(frame),
                 Work::GridDraw { .. } => {
-                    self.remote.encode_draw(&self.queue, encoder, self.surface.pool(), plan, grids);
+                    parts.draw = self.remote.upload_draw(frame, self.surface.pool(), plan, grids);
                 }
             }
         }
+        self.losses = frame.losses();
+        frame.watch();
+        parts
     }
 
-    fn upload(&mut self, grid: &mut crate::grids::Grid, alpha: f32) {
+    fn upload_grid(&mut self, frame: &mut Frame<'_>, grid: &mut crate::grids::Grid, alpha: f32) {
         let Sim::Cpu(waves) = &grid.sim else { return };
         self.scratch.resize(grid.cell_count() as usize, [0.0; 2]);
         waves.draw(alpha, &mut self.scratch);
         let offset = u64::from(grid.base) * size_of::<[f32; 2]>() as u64;
-        self.queue.write_buffer(self.surface.pool(), offset, bytemuck::cast_slice(&self.scratch));
-    }
-
-    fn encode_ocean(
-        &mut self,
-        plan: &FramePlan,
-        ocean: Option<&Ocean>,
-        looks: bool,
-        encoder: &mut wgpu::CommandEncoder,
-    ) {
-        let (Some(gpu), Some(ocean)) = (&mut self.ocean, ocean) else { return };
-        if looks {
-            gpu.encode(&self.queue, encoder, ocean, plan.time, (plan.time - self.looks_time).abs() as f32);
-            self.looks_time = plan.time;
-        } else {
-            gpu.encode_fields(&self.queue, encoder, ocean, plan.time);
-        }
+        frame.write(self.surface.pool(), offset, bytemuck::cast_slice(&self.scratch));
     }
 
     /// Dispatches of the sea's fields, and of its looks.

@@ -45,12 +45,6 @@ impl Gpu {
         self.lost |= matches!(made, Err(OpenWaterError::DeviceLost));
         made
     }
-
-    /// Whether the device is there.
-    pub(super) fn is_sound(&mut self) -> bool {
-        self.lost = self.lost || !is_alive(&self.device);
-        !self.lost
-    }
 }
 
 /// What needs no device does without.

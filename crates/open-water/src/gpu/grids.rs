@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
-use open_water_shaders::pipeline::Readback;
+use open_water_shaders::pipeline::{Frame, Readback};
 use wave_grid::gpu::{GpuGridId, GpuGrids};
 use wave_grid::{GridSample, Hole, Medium, Source, Window};
 
@@ -86,11 +86,13 @@ impl RemoteGrid {
 pub(crate) struct RemoteGrids {
     device: wgpu::Device,
     grids: GpuGrids,
+    /// What is drawn, and where in the pool.
+    draws: Vec<(GpuGridId, u32)>,
 }
 
 impl RemoteGrids {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        Self { device: device.clone(), grids: GpuGrids::new(device) }
+        Self { device: device.clone(), grids: GpuGrids::new(device), draws: Vec::new() }
     }
 
     pub(crate) fn add(&mut self, desc: wave_grid::GridDesc) -> Result<RemoteGrid, OpenWaterError> {
@@ -172,30 +174,48 @@ impl RemoteGrids {
         }
     }
 
-    /// Steps what was queued.
-    pub(crate) fn encode_steps(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) {
-        self.grids.encode(&self.device, queue, encoder);
+    /// Uploads what was queued. Returns whether there is something to step.
+    pub(crate) fn upload_steps(&mut self, frame: &mut Frame<'_>) -> bool {
+        self.grids.upload(frame)
     }
 
-    /// Draws every awake grid into the pool, and copies it for the way back.
-    pub(crate) fn encode_draw(
+    /// Steps it.
+    pub(crate) fn record_steps(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.grids.record(pass);
+    }
+
+    /// Notes that it was stepped.
+    pub(crate) fn finish_steps(&mut self, frame: &mut Frame<'_>) {
+        self.grids.finish(frame);
+    }
+
+    /// Uploads what to draw of every awake grid. Returns whether there is something to draw.
+    pub(crate) fn upload_draw(
         &mut self,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
+        frame: &mut Frame<'_>,
         pool: &wgpu::Buffer,
         plan: &FramePlan,
-        grids: &mut Grids,
-    ) {
-        let mut draws = Vec::new();
+        grids: &Grids,
+    ) -> bool {
+        self.draws.clear();
         for grid in grids.iter() {
             if let Sim::Gpu(remote) = &grid.sim
                 && remote.awake
             {
-                draws.push((remote.id, grid.base));
+                self.draws.push((remote.id, grid.base));
                 self.grids.set_holes(remote.id, &remote.holes);
             }
         }
-        self.grids.encode_draw(&self.device, queue, encoder, pool, &draws, plan.alpha);
+        self.grids.upload_draw(frame, pool, &self.draws, plan.alpha)
+    }
+
+    /// Draws into the pool.
+    pub(crate) fn record_draw(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.grids.record_draw(pass);
+    }
+
+    /// Copies what was drawn for the way back.
+    pub(crate) fn finish_draw(frame: &mut Frame<'_>, pool: &wgpu::Buffer, plan: &FramePlan, grids: &mut Grids) {
         for grid in grids.iter_mut() {
             let (base, bytes) = (u64::from(grid.base) * size_of::<[f32; 2]>() as u64, grid.pool_bytes());
             if let Sim::Gpu(remote) = &mut grid.sim
@@ -203,7 +223,7 @@ impl RemoteGrids {
             {
                 let stamp = Stamp { tick: plan.tick, corner: remote.window.corner };
                 // Dropped when the GPU is too far behind: the mirror just gets older.
-                let _ = remote.ring.encode(encoder, pool, base, bytes, stamp);
+                let _ = remote.ring.encode(frame.encoder, pool, base, bytes, stamp);
             }
         }
     }

@@ -17,14 +17,21 @@ impl OpenWater {
         limits::least()
     }
 
-    /// Records the plan's work into the host's encoder. Uploads go through the queue and hold for everything that is
-    /// submitted next, so encode once per submission. Does nothing without a device, nor on one that is lost
-    /// ([`Self::is_device_lost`]).
+    /// Records the plan's work into the host's encoder, uploads included: several encoders of one submission each show
+    /// their own moment, and one that is dropped leaves nothing behind (then drop those encoded after it, too). Submit them
+    /// in the order in which they were encoded. Does nothing without a device, nor on one that is lost ([`Self::is_device_lost`]).
+    ///
+    /// While [`MAX_FRAMES`] of them are under way the GPU is too far behind, and the plan's work is left out: the picture
+    /// gets older, nothing waits, and grids on the GPU make their ticks up later. See [`Reports::behind`].
+    ///
+    /// [`MAX_FRAMES`]: open_water_shaders::pipeline::MAX_FRAMES
+    /// [`Reports::behind`]: crate::Reports::behind
     pub fn encode(&mut self, plan: &FramePlan, encoder: &mut wgpu::CommandEncoder) {
         if let Some(gpu) = &mut self.gpu
-            && gpu.is_sound()
+            && !gpu.lost
+            && !gpu.encode(plan, self.ocean.as_ref(), &mut self.grids, encoder)
         {
-            gpu.encode(plan, self.ocean.as_ref(), &mut self.grids, encoder);
+            self.reports.behind += u64::from(!gpu.lost);
         }
     }
 

@@ -13,6 +13,7 @@ mod surface;
 
 use ocean_spectrum::Ocean;
 use ocean_spectrum::gpu::GpuOcean;
+use open_water_shaders::pipeline::Staging;
 
 use crate::OpenWaterError;
 use crate::grids::{Grids, Sim};
@@ -26,7 +27,11 @@ pub(crate) struct Gpu {
     ocean: Option<GpuOcean>,
     surface: SurfaceBinding,
     pub(crate) remote: grids::RemoteGrids,
+    /// Not there while a frame writes.
+    staging: Option<Staging>,
+    /// What the last frame encoded, unless uploads were lost since; and how often they had been.
     shown: Shown,
+    losses: u64,
     /// The device is lost, or has failed: nothing is made or recorded any more.
     pub(crate) lost: bool,
     /// Cells that the pool has room for, and that it never has less.
@@ -53,7 +58,9 @@ impl Gpu {
                 ocean: gpu_ocean,
                 surface,
                 remote: grids::RemoteGrids::new(device),
+                staging: Some(Staging::new(device)),
                 shown: Shown::default(),
+                losses: 0,
                 lost: false,
                 pool: [0; 2],
                 looks_time: 0.0,
@@ -171,8 +178,13 @@ impl Gpu {
         added
     }
 
+    /// What the GPU holds: nothing that is known, once uploads were lost.
     pub(crate) fn shown(&self) -> Shown {
-        self.shown
+        self.held(self.staging.as_ref().map_or(0, Staging::losses))
+    }
+
+    fn held(&self, losses: u64) -> Shown {
+        if losses == self.losses { self.shown } else { Shown::default() }
     }
 
     pub(crate) fn surface(&self) -> &SurfaceBinding {

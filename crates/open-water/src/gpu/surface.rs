@@ -3,7 +3,7 @@
 use glam::DVec2;
 use ocean_spectrum::Ocean;
 use ocean_spectrum::gpu::GpuOcean;
-use open_water_shaders::pipeline::bind_group;
+use open_water_shaders::pipeline::{Frame, bind_group};
 use open_water_shaders::surface::{self, HIDDEN_SLOPE_BIAS, SurfaceCascade, SurfaceGrid, SurfaceLand, SurfaceTable};
 
 use super::land::{Land, LandTexels};
@@ -147,7 +147,7 @@ impl SurfaceBinding {
     /// `size` is that of the cascades' layers, texels per side.
     pub(crate) fn write_table<'a>(
         &self,
-        queue: &wgpu::Queue,
+        frame: &mut Frame<'_>,
         time: f64,
         ocean: Option<&Ocean>,
         grids: impl Iterator<Item = &'a Grid>,
@@ -182,7 +182,7 @@ impl SurfaceBinding {
         }
         let land = self.land.as_ref().map(|land| land.entry(DVec2::ZERO));
         table.land = SurfaceLand { level, ..land.unwrap_or_default() };
-        queue.write_buffer(&self.table, 0, bytemuck::bytes_of(&table));
+        frame.write(&self.table, 0, bytemuck::bytes_of(&table));
     }
 }
 

@@ -7,10 +7,9 @@ use open_water_shaders::grid::{
     ACTIVE_WORD, ARRAYS, COUNT_WORDS, GridCell, GridDispatch, GridDraw, GridSource, GridTile, GridWaterCell,
     LIST_COUNT, MEDIUM_ARRAYS, TILE, TickParams, TickWater,
 };
-use open_water_shaders::pipeline::bind_group;
+use open_water_shaders::pipeline::{Frame, bind_group};
 
 use super::MAX_GRIDS;
-use super::flight::Flight;
 use super::pack::{self, Tick, Work};
 use super::pass::{DISPATCH_STRIDE, Passes};
 use super::water::Bases;
@@ -30,13 +29,13 @@ impl List {
     }
 
     /// Returns whether the buffer is another one now.
-    fn write<T: NoUninit>(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, data: &[T]) -> bool {
+    fn write<T: NoUninit>(&mut self, frame: &mut Frame<'_>, data: &[T]) -> bool {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         let grown = bytes.len() as u64 > self.buffer.size();
         if grown {
-            *self = Self::new(device, self.label, self.usage, (bytes.len() as u64).next_power_of_two());
+            *self = Self::new(frame.device(), self.label, self.usage, (bytes.len() as u64).next_power_of_two());
         }
-        queue.write_buffer(&self.buffer, 0, bytes);
+        frame.write(&self.buffer, 0, bytes);
         grown
     }
 }
@@ -86,7 +85,7 @@ pub(super) struct Buffers {
     /// Larger ones of those that are there already.
     ready: [Option<wgpu::Buffer>; 6],
     /// Heights, memory, medium, marks, fields and faces before they grew, until the encoder that copies them is done.
-    outgrown: Vec<(Flight, [wgpu::Buffer; 6])>,
+    outgrown: Vec<(u64, [wgpu::Buffer; 6])>,
 }
 
 /// What is uploaded of all queued ticks.
@@ -98,6 +97,7 @@ struct Upload {
     cells: Vec<GridCell>,
     water: Vec<TickWater>,
     water_cells: Vec<GridWaterCell>,
+    counts: Vec<u32>,
 }
 
 /// Bind groups of the ticks' passes.
@@ -161,15 +161,8 @@ impl Buffers {
 
     /// Makes room for `vectors` of state and for what dispersive grids have, and for their medium where it is `felt`, by any
     /// grid and by dispersive ones. What is there stays; what is new is zero.
-    pub(super) fn reserve_state(
-        &mut self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        vectors: u64,
-        water: Bases,
-        felt: [bool; 2],
-    ) {
-        self.settle();
+    pub(super) fn reserve_state(&mut self, frame: &mut Frame<'_>, vectors: u64, water: Bases, felt: [bool; 2]) {
+        self.settle(frame);
         let before = [&self.heights, &self.memory, &self.ground, &self.marks, &self.fields, &self.faces];
         let before = before.map(wgpu::Buffer::clone);
         let mut grown = false;
@@ -179,8 +172,8 @@ impl Buffers {
         for ((buffer, (label, bytes)), ready) in own.into_iter().zip(wanted).zip(&mut self.ready) {
             if bytes > buffer.size() {
                 let ready = ready.take().filter(|ready| ready.size() >= bytes);
-                let larger = ready.unwrap_or_else(|| create(device, label, STATE_USAGE, bytes));
-                encoder.copy_buffer_to_buffer(buffer, 0, &larger, 0, buffer.size());
+                let larger = ready.unwrap_or_else(|| create(frame.device(), label, STATE_USAGE, bytes));
+                frame.encoder.copy_buffer_to_buffer(buffer, 0, &larger, 0, buffer.size());
                 *buffer = larger;
                 grown = true;
             }
@@ -188,7 +181,7 @@ impl Buffers {
         if grown {
             self.groups = None;
             self.draw_group = None;
-            self.outgrown.push((Flight::board(encoder), before));
+            self.outgrown.push((frame.watch(), before));
         }
     }
 
@@ -211,26 +204,21 @@ impl Buffers {
     }
 
     /// Takes back the buffers that an encoder should have copied that was dropped.
-    fn settle(&mut self) {
-        if let Some(lost) = self.outgrown.iter().position(|(flight, _)| flight.is_lost()) {
+    fn settle(&mut self, frame: &Frame<'_>) {
+        if let Some(lost) = self.outgrown.iter().position(|(number, _)| frame.is_lost(*number)) {
             for (_, before) in self.outgrown.drain(lost..).take(1) {
                 [self.heights, self.memory, self.ground, self.marks, self.fields, self.faces] = before;
             }
             self.groups = None;
             self.draw_group = None;
         }
-        self.outgrown.retain(|(flight, _)| !flight.has_landed());
+        self.outgrown.retain(|(number, _)| !frame.has_landed(*number));
     }
 
-    /// Uploads the queued ticks.
-    pub(super) fn upload(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        passes: &Passes,
-        ticks: &mut VecDeque<Tick>,
-    ) -> &Groups {
-        let Self { uniforms, upload: Upload { params, tiles, sources, cells, water, water_cells }, .. } = self;
+    /// Uploads the queued ticks. False without memory for it: then nothing was.
+    pub(super) fn upload(&mut self, frame: &mut Frame<'_>, ticks: &mut VecDeque<Tick>) -> bool {
+        let Self { uniforms, upload: Upload { params, tiles, sources, cells, water, water_cells, counts }, .. } = self;
+        counts.clear();
         uniforms.clear();
         params.clear();
         tiles.clear();
@@ -240,7 +228,6 @@ impl Buffers {
         water_cells.clear();
         let any_water = ticks.iter().any(|tick| tick.water.is_some());
         let mut most_tiles = 0;
-        let mut counts = Vec::with_capacity(ticks.len() * COUNT_WORDS as usize);
         for (tick, index) in ticks.iter_mut().zip(0..) {
             tick.first = [tiles.len() as u32, cells.len() as u32, water_cells.len() as u32];
             most_tiles = tick.tiles.len().max(most_tiles);
@@ -268,25 +255,54 @@ impl Buffers {
             own[..ACTIVE_WORD as usize].as_chunks_mut::<4>().0.fill([0, 1, 1, 0]);
             counts.extend(own);
         }
-        let mut stale = self.dispatches.write(device, queue, uniforms);
-        stale |= self.params.write(device, queue, params);
-        stale |= self.tiles.write(device, queue, tiles);
-        stale |= self.sources.write(device, queue, sources);
-        stale |= self.cells.write(device, queue, cells);
+        let lists = [
+            size_of_val(uniforms.as_slice()),
+            size_of_val(params.as_slice()),
+            size_of_val(tiles.as_slice()),
+            size_of_val(sources.as_slice()),
+            size_of_val(cells.as_slice()),
+            size_of_val(water.as_slice()),
+            size_of_val(water_cells.as_slice()),
+            size_of_val(counts.as_slice()),
+        ];
+        // All of it or nothing: half a tick would be another one.
+        if !frame.reserve(lists.iter().sum::<usize>() as u64, lists.len() as u64) {
+            return false;
+        }
+        let mut stale = self.dispatches.write(frame, uniforms);
+        stale |= self.params.write(frame, params);
+        stale |= self.tiles.write(frame, tiles);
+        stale |= self.sources.write(frame, sources);
+        stale |= self.cells.write(frame, cells);
         if any_water {
-            stale |= self.water.write(device, queue, water);
-            stale |= self.water_cells.write(device, queue, water_cells);
+            stale |= self.water.write(frame, water);
+            stale |= self.water_cells.write(frame, water_cells);
             stale |= self.groups.as_ref().is_some_and(|groups| groups.water.is_none());
         }
-        stale |= self.counts.write(device, queue, &counts);
+        stale |= self.counts.write(frame, counts);
         let list = most_tiles as u64 * u64::from(LIST_COUNT) * 16;
         if list > self.list.size() {
-            self.list = create(device, "grid list", wgpu::BufferUsages::STORAGE, list);
+            self.list = create(frame.device(), "grid list", wgpu::BufferUsages::STORAGE, list);
             stale = true;
         }
         if stale {
             self.groups = None;
         }
+        true
+    }
+
+    /// The bind groups that [`Self::bind`] made.
+    pub(super) fn groups(&self) -> Option<&Groups> {
+        self.groups.as_ref()
+    }
+
+    /// The bind group that [`Self::upload_draws`] made.
+    pub(super) fn draw_group(&self) -> Option<&wgpu::BindGroup> {
+        self.draw_group.as_ref().map(|(_, group)| group)
+    }
+
+    /// Makes the bind groups for what was uploaded, those of dispersive grids if there are `any_water`.
+    pub(super) fn bind(&mut self, device: &wgpu::Device, passes: &Passes, any_water: bool) -> &Groups {
         self.groups.get_or_insert_with(|| {
             let state = [
                 first(&self.dispatches, size_of::<GridDispatch>()),
@@ -331,21 +347,19 @@ impl Buffers {
     /// Uploads what is to be drawn into `pool`.
     pub(super) fn upload_draws(
         &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
+        frame: &mut Frame<'_>,
         passes: &Passes,
         pool: &wgpu::Buffer,
         draws: &[GridDraw],
-    ) -> &wgpu::BindGroup {
-        let grown = self.draws.write(device, queue, draws);
+    ) {
+        let grown = self.draws.write(frame, draws);
         if grown || self.draw_group.as_ref().is_some_and(|(bound, _)| bound != pool) {
             self.draw_group = None;
         }
-        let (_, group) = self.draw_group.get_or_insert_with(|| {
+        self.draw_group.get_or_insert_with(|| {
             let buffers = [&self.draws.buffer, &self.heights, pool, &self.ground];
             let resources = buffers.map(wgpu::Buffer::as_entire_binding);
-            (pool.clone(), bind_group(device, "grid draw", &passes.draw_layout, &resources))
+            (pool.clone(), bind_group(frame.device(), "grid draw", &passes.draw_layout, &resources))
         });
-        group
     }
 }

@@ -1,12 +1,23 @@
 //! Writes the queued ticks, and the drawing of grids, into encoders.
+//!
+//! Each in three parts, so that a host can put the middle ones of all into one compute pass: what is uploaded, what is
+//! dispatched, what is copied back.
 
 use open_water_shaders::grid::{self as shader, DRAW_THREADS, TickParams, TickWater};
+use open_water_shaders::pipeline::Frame;
 
-use super::flight::Flight;
 use super::pack::{self, Kind};
 use super::water::Bases;
 use super::water_pass::WaterGroups;
 use super::{GpuGridId, GpuGrids, MAX_GRIDS, pass};
+
+/// What [`GpuGrids::record_draw`] dispatches.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drawing {
+    felt: bool,
+    holes: bool,
+    workgroups: [u32; 3],
+}
 
 impl GpuGrids {
     /// What the grids need of the buffers.
@@ -16,9 +27,9 @@ impl GpuGrids {
         (u64::from(self.state_vectors()), self.water_end(), felt)
     }
 
-    pub(super) fn reserve(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
+    pub(super) fn reserve(&mut self, frame: &mut Frame<'_>) {
         let (vectors, water, felt) = self.needs();
-        self.buffers.reserve_state(device, encoder, vectors, water, felt);
+        self.buffers.reserve_state(frame, vectors, water, felt);
     }
 
     /// Makes the memory and the pipelines that the grids need as they are, so that [`Self::encode`] need not: where it
@@ -39,29 +50,51 @@ impl GpuGrids {
         self.passes.water = self.passes.water.take().filter(|_| self.grids.iter().any(|grid| grid.water.is_some()));
     }
 
-    /// Encodes the queued ticks, and takes what has come back of earlier ones. Submit the encoder, or drop it, before
-    /// encoding again: the ticks of an encoder that was dropped are encoded anew, before those queued since.
-    pub fn encode(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) {
-        self.activity.poll(device, &mut self.grids);
-        self.encoded_ticks = self.queued_ticks;
-        if let Some((flight, mut ticks)) = self.sent.take() {
-            if flight.is_lost() {
+    /// Encodes the queued ticks, and takes what has come back of earlier ones. The ticks of encoders that were dropped are
+    /// encoded anew, before those queued since; who drops one must drop those encoded after it.
+    pub fn encode(&mut self, frame: &mut Frame<'_>) {
+        if self.upload(frame) {
+            let of = wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() };
+            self.record(&mut frame.encoder.begin_compute_pass(&of));
+            self.finish(frame);
+        }
+    }
+
+    /// The first part of [`Self::encode`]: uploads. Returns whether the others are to follow: [`Self::record`], then
+    /// [`Self::finish`]; without memory for the upload the ticks wait.
+    pub fn upload(&mut self, frame: &mut Frame<'_>) -> bool {
+        self.activity.poll(frame.device(), &mut self.grids);
+        while let Some((_, ticks)) = self.sent.pop_front_if(|(number, _)| frame.has_landed(*number)) {
+            self.packer.reuse(ticks.into_iter());
+        }
+        for at in (0..self.sent.len()).rev() {
+            if frame.is_lost(self.sent[at].0)
+                && let Some((_, mut ticks)) = self.sent.remove(at)
+            {
                 ticks.append(&mut self.ticks);
                 self.ticks = ticks;
-            } else {
-                self.packer.reuse(ticks.into_iter());
             }
         }
-        let Some(last) = self.ticks.back() else { return };
-        self.activity.expect(&last.grids);
-        let counts = (self.ticks.len() - 1) as u64 * u64::from(4 * shader::COUNT_WORDS);
-        self.reserve(device, encoder);
-        if self.ticks.iter().any(|tick| tick.water.is_some()) {
-            self.passes.need_water(device);
+        if self.ticks.is_empty() {
+            self.encoded_ticks = self.queued_ticks;
+            return false;
         }
-        let groups = self.buffers.upload(device, queue, &self.passes, &mut self.ticks);
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() });
+        self.reserve(frame);
+        let any_water = self.ticks.iter().any(|tick| tick.water.is_some());
+        if any_water {
+            self.passes.need_water(frame.device());
+        }
+        if !self.buffers.upload(frame, &mut self.ticks) {
+            return false;
+        }
+        self.encoded_ticks = self.queued_ticks;
+        self.buffers.bind(frame.device(), &self.passes, any_water);
+        true
+    }
+
+    /// The second part of [`Self::encode`]: dispatches.
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
+        let Some(groups) = self.buffers.groups() else { return };
         let mut dispatch = 0;
         for (index, tick) in (0..).zip(&self.ticks) {
             let params = index * size_of::<TickParams>() as u32;
@@ -90,37 +123,62 @@ impl GpuGrids {
                 dispatch += 1;
             }
         }
-        drop(pass);
-        self.activity.encode(encoder, &groups.counts, counts);
-        self.sent = Some((Flight::board(encoder), std::mem::take(&mut self.ticks)));
+    }
+
+    /// The last part of [`Self::encode`]: the copy of what comes back.
+    pub fn finish(&mut self, frame: &mut Frame<'_>) {
+        let Some((last, groups)) = self.ticks.back().zip(self.buffers.groups()) else { return };
+        self.activity.expect(&last.grids);
+        let counts = (self.ticks.len() - 1) as u64 * u64::from(4 * shader::COUNT_WORDS);
+        self.activity.encode(frame.encoder, &groups.counts, counts);
+        self.sent.push_back((frame.watch(), std::mem::take(&mut self.ticks)));
     }
 
     /// Encodes the drawing of grids as of the last encoded tick: (height, foam) of cell (i, j) goes to element
     /// `base + j * nx + i` of `pool`, a storage buffer of `vec2<f32>`. `alpha` as in [`crate::WaveGrid::draw`]. Asleep
     /// grids are drawn as zeros.
-    pub fn encode_draw(
+    pub fn encode_draw(&mut self, frame: &mut Frame<'_>, pool: &wgpu::Buffer, draws: &[(GpuGridId, u32)], alpha: f32) {
+        if self.upload_draw(frame, pool, draws, alpha) {
+            let of = wgpu::ComputePassDescriptor { label: Some("grid draw"), ..Default::default() };
+            self.record_draw(&mut frame.encoder.begin_compute_pass(&of));
+        }
+    }
+
+    /// The first part of [`Self::encode_draw`]: uploads. Returns whether there is anything for [`Self::record_draw`].
+    pub fn upload_draw(
         &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
+        frame: &mut Frame<'_>,
         pool: &wgpu::Buffer,
         draws: &[(GpuGridId, u32)],
         alpha: f32,
-    ) {
+    ) -> bool {
+        self.drawing = None;
         if draws.is_empty() {
-            return;
+            return false;
         }
         let alpha = if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) };
-        self.reserve(device, encoder);
-        let draws: Vec<_> = draws.iter().take(MAX_GRIDS).map(|(id, out)| self.grids[id.0].drawn(alpha, *out)).collect();
-        let [x, y] = [0, 1].map(|k| draws.iter().map(|d| d.cells[k]).max().unwrap_or(0));
-        let draw_group = self.buffers.upload_draws(device, queue, &self.passes, pool, &draws);
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grid draw"), ..Default::default() });
-        let felt = draws.iter().any(|draw| draw.medium != shader::NO_MEDIUM);
-        let holes = draws.iter().any(|draw| draw.hole_count > 0);
+        self.reserve(frame);
+        let Self { grids, drawn, .. } = self;
+        drawn.clear();
+        drawn.extend(draws.iter().take(MAX_GRIDS).map(|(id, out)| grids[id.0].drawn(alpha, *out)));
+        let [x, y] = [0, 1].map(|k| drawn.iter().map(|d| d.cells[k]).max().unwrap_or(0));
+        self.drawing = Some(Drawing {
+            felt: drawn.iter().any(|draw| draw.medium != shader::NO_MEDIUM),
+            holes: drawn.iter().any(|draw| draw.hole_count > 0),
+            workgroups: [x.div_ceil(DRAW_THREADS), y, drawn.len() as u32],
+        });
+        self.buffers.upload_draws(frame, &self.passes, pool, drawn);
+        true
+    }
+
+    /// The second part of [`Self::encode_draw`]: one dispatch, after those of [`Self::record`].
+    pub fn record_draw(&self, pass: &mut wgpu::ComputePass<'_>) {
+        let Some((Drawing { felt, holes, workgroups: [x, y, z] }, group)) = self.drawing.zip(self.buffers.draw_group())
+        else {
+            return;
+        };
         pass.set_pipeline(&self.passes.draw[usize::from(felt)][usize::from(holes)]);
-        pass.set_bind_group(0, draw_group, &[]);
-        pass.dispatch_workgroups(x.div_ceil(DRAW_THREADS), y, draws.len() as u32);
+        pass.set_bind_group(0, group, &[]);
+        pass.dispatch_workgroups(x, y, z);
     }
 }

@@ -10,7 +10,6 @@
 mod activity;
 mod buffers;
 mod encode;
-mod flight;
 mod grid;
 mod holes;
 mod land;
@@ -34,13 +33,13 @@ use crate::{Border, GridDesc, GridError, Scheme, Source, Window};
 
 use activity::Activity;
 use buffers::Buffers;
-use flight::Flight;
 use grid::Grid;
 use pack::Packer;
 use pass::Passes;
 use query::Queries;
 use water::{Bases, Water};
 
+pub use open_water_shaders::pipeline::{Frame, Staging};
 pub use query::{Answer, MAX_QUERY_POINTS};
 
 /// Most grids.
@@ -64,10 +63,13 @@ pub struct GpuGrids {
     buffers: Buffers,
     packer: Packer,
     ticks: VecDeque<pack::Tick>,
-    /// What the last encoder took with it.
-    sent: Option<(Flight, VecDeque<pack::Tick>)>,
+    /// What frames took with them whose encoders may yet be dropped, the oldest first.
+    sent: VecDeque<(u64, VecDeque<pack::Tick>)>,
     /// Scratch of sources.
     weights: [Vec<f32>; 2],
+    /// What is drawn.
+    drawn: Vec<shader::GridDraw>,
+    drawing: Option<encode::Drawing>,
     activity: Activity,
     queries: Queries,
     /// Ticks queued and ticks encoded so far, those included that had nothing to do.
@@ -88,8 +90,10 @@ impl GpuGrids {
             buffers,
             packer: Packer::default(),
             ticks: VecDeque::new(),
-            sent: None,
+            sent: VecDeque::new(),
             weights: Default::default(),
+            drawn: Vec::new(),
+            drawing: None,
             activity: Activity::new(device),
             queries: Queries::new(device),
             queued_ticks: 0,

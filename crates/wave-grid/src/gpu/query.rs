@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Vec2};
 use open_water_shaders::grid::{self as shader, GridQueries, GridQuery, QUERY_THREADS};
-use open_water_shaders::pipeline::{Readback, Slot, bind_group, compute_pipeline, group_layout};
+use open_water_shaders::pipeline::{Frame, Readback, Slot, bind_group, compute_pipeline, group_layout};
 
 use super::{GpuGrids, MAX_GRIDS, grid::Grid};
 use crate::GridSample;
@@ -85,20 +85,14 @@ impl GpuGrids {
     ///
     /// Returns whether it was encoded: not when four are under way already, when there is no point, or more than
     /// [`MAX_QUERY_POINTS`].
-    pub fn encode_query(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        points: &[Vec2],
-    ) -> bool {
+    pub fn encode_query(&mut self, frame: &mut Frame<'_>, points: &[Vec2]) -> bool {
         if points.is_empty() || points.len() > MAX_QUERY_POINTS {
             return false;
         }
-        self.reserve(device, encoder);
+        self.reserve(frame);
         let mut lists = match self.queries.lists.take() {
             Some(lists) if lists.capacity() >= points.len() => lists,
-            _ => Lists::new(device, points.len().next_power_of_two().max(64)),
+            _ => Lists::new(frame.device(), points.len().next_power_of_two().max(64)),
         };
         let mut asked = GridQueries { points: points.len() as u32, ..Default::default() };
         let present = self.grids.iter().filter(|grid| !grid.removed).take(MAX_GRIDS);
@@ -109,20 +103,20 @@ impl GpuGrids {
         let felt = asked.list.iter().any(|grid| grid.medium != shader::NO_MEDIUM);
         let finite: Vec<Vec2> =
             points.iter().map(|point| if point.is_finite() { *point } else { Vec2::splat(NOWHERE) }).collect();
-        queue.write_buffer(&lists.uniform, 0, bytemuck::bytes_of(&asked));
-        queue.write_buffer(&lists.points, 0, bytemuck::cast_slice(&finite));
+        frame.write(&lists.uniform, 0, bytemuck::bytes_of(&asked));
+        frame.write(&lists.points, 0, bytemuck::cast_slice(&finite));
         let [heights, ground] = self.buffers.heights_and_ground();
         let resources = [&lists.uniform, heights, ground, &lists.points, &lists.samples];
         let resources = resources.map(wgpu::Buffer::as_entire_binding);
-        let group = bind_group(device, "grid query", &self.queries.layout, &resources);
-        let mut pass = encoder
-            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("grid query"), ..Default::default() });
+        let group = bind_group(frame.device(), "grid query", &self.queries.layout, &resources);
+        let of = wgpu::ComputePassDescriptor { label: Some("grid query"), ..Default::default() };
+        let mut pass = frame.encoder.begin_compute_pass(&of);
         pass.set_pipeline(&self.queries.pipelines[usize::from(felt)]);
         pass.set_bind_group(0, &group, &[]);
         pass.dispatch_workgroups(asked.points.div_ceil(QUERY_THREADS), 1, 1);
         drop(pass);
         let bytes = (points.len() * size_of::<[f32; 4]>()) as u64;
-        let encoded = lists.ring.encode(encoder, &lists.samples, 0, bytes, self.encoded_ticks);
+        let encoded = lists.ring.encode(frame.encoder, &lists.samples, 0, bytes, self.encoded_ticks);
         self.queries.lists = Some(lists);
         encoded
     }

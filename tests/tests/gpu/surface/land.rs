@@ -55,7 +55,7 @@ impl<'a> Stage<'a> {
         let mut ocean = Ocean::new(desc).unwrap();
         ocean.set_time(61.5);
         let mut gpu = GpuOcean::new(&context.device, &ocean).unwrap();
-        context.submit(|encoder| gpu.encode(&context.queue, encoder, &ocean, 61.5, 0.1));
+        context.frame(|frame| gpu.encode(frame, &ocean, 61.5, 0.1));
         Self { context, ocean, gpu }
     }
 
