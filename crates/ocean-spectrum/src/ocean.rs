@@ -102,6 +102,17 @@ impl OceanDesc {
     }
 }
 
+/// Layers of arrays that are to be made.
+fn layers(source: &Source) -> Vec<Layer> {
+    let pools = Arc::new(source.pools());
+    let layer = |c| Layer::new(&source.first, c, Synthesis::new(c, source.clone(), Arc::clone(&pools)));
+    (0..source.first.modes.len()).map(layer).collect()
+}
+
+fn shape(set: &ModeSet) -> Vec<(u32, f32)> {
+    set.modes.iter().map(|modes| (modes.size, modes.tile)).collect()
+}
+
 /// The arrays of one cascade at the time set, row-major, x fastest; texel `(i, j)` lies at `(i, j) * tile/size`.
 #[derive(Debug, Clone, Copy)]
 pub struct CascadeFields<'a> {
@@ -127,6 +138,8 @@ pub struct Ocean {
     /// Changes in the order of their starts.
     pub(crate) segments: Vec<Arc<Segment>>,
     pub(crate) layers: Vec<Layer>,
+    /// Size and tile of each layer.
+    shape: Vec<(u32, f32)>,
     pub(crate) time_set: f64,
     pub(crate) moment: Moment,
     pub(crate) revision: u64,
@@ -148,11 +161,10 @@ impl Ocean {
         let base = Arc::new(ModeSet::new(desc, level)?);
         let moment = Parts::Alone(&base).moment(0.0);
         let source = Source { first: Arc::clone(&base), second: None, moment };
-        let pools = Arc::new(source.pools());
-        let layer = |c| Layer::new(&base, c, Synthesis::new(c, source.clone(), Arc::clone(&pools)));
-        let layers = (0..base.modes.len()).map(layer).collect();
+        let layers = layers(&source);
+        let shape = shape(&base);
         let segments = Vec::new();
-        Ok(Self { base, segments, layers, time_set: 0.0, moment, revision: 1, map: None, origin: DVec2::ZERO })
+        Ok(Self { base, segments, layers, shape, time_set: 0.0, moment, revision: 1, map: None, origin: DVec2::ZERO })
     }
 
     /// What was changed in the description or left out.
@@ -183,6 +195,9 @@ impl Ocean {
         let source = Source { first: Arc::clone(parts.first()), second: parts.second().map(Arc::clone), moment };
         self.revision += u64::from(moment.sets != self.moment.sets);
         self.moment = moment;
+        if source.first.modes.iter().map(|modes| (modes.size, modes.tile)).ne(self.shape.iter().copied()) {
+            (self.layers, self.shape) = (layers(&source), shape(&source.first));
+        }
         for c in 0..self.layers.len() {
             self.layers[c].band = self.band(c);
             self.layers[c].fields.set_source(&source);
@@ -213,12 +228,12 @@ impl Ocean {
     pub(crate) fn layers(&self, count: usize, reads: Outputs) -> Layers<'_> {
         let mut views = [View::default(); MAX_CASCADES];
         let layers = &self.layers[..count];
-        for (c, ((view, modes), layer)) in views.iter_mut().zip(&self.base.modes).zip(layers).enumerate() {
-            let size = modes.size as usize;
+        for (c, ((view, &(size, tile)), layer)) in views.iter_mut().zip(&self.shape).zip(layers).enumerate() {
+            view.texels_per_metre = f64::from(size) / f64::from(tile);
+            let size = size as usize;
             let texels =
                 |texels: fn(&Synthesis) -> &[[f32; 4]]| Texels { size, flat: texels(&layer.fields).as_flattened() };
             view.offset = self.offset_within(c);
-            view.texels_per_metre = f64::from(modes.size) / f64::from(modes.tile);
             view.band = layer.band;
             view.displacement = texels(Synthesis::displacement);
             if reads.slopes {
@@ -248,8 +263,8 @@ impl Ocean {
                 direct.parts[s] = Some(Part { waves, phase, weight });
             }
         }
-        for (c, (tile, modes)) in direct.tiles.iter_mut().zip(&self.base.modes).enumerate() {
-            *tile = (modes.tile.into(), self.offset_within(c));
+        for (c, (tile, shape)) in direct.tiles.iter_mut().zip(&self.shape).enumerate() {
+            *tile = (shape.1.into(), self.offset_within(c));
         }
         direct.parts[0].is_some().then_some(direct)
     }
@@ -263,8 +278,18 @@ impl Ocean {
     }
 
     fn offset_within(&self, c: usize) -> DVec2 {
-        let tile = f64::from(self.base.modes[c].tile);
+        self.offset_on(self.shape[c].1)
+    }
+
+    /// The local origin within a tile, metres.
+    fn offset_on(&self, tile: f32) -> DVec2 {
+        let tile = f64::from(tile);
         DVec2::new(self.origin.x.rem_euclid(tile), self.origin.y.rem_euclid(tile))
+    }
+
+    /// As [`Self::offset`], of each cascade that the sea has at time `t`, seconds (0 if not finite).
+    pub fn offsets_at(&self, t: f64) -> impl Iterator<Item = Vec2> {
+        self.mode_sets_at(t).0.iter().map(|modes| self.offset_on(modes.tile).as_vec2())
     }
 
     /// The local origin within the tile of cascade `c`, metres: add it to a local position to get one in the arrays.
@@ -290,8 +315,8 @@ impl Ocean {
     pub fn fields(&self, c: usize) -> CascadeFields<'_> {
         let fields = &self.layers[c].fields;
         CascadeFields {
-            size: self.base.modes[c].size,
-            tile: self.base.modes[c].tile,
+            size: self.shape[c].0,
+            tile: self.shape[c].1,
             displacement: fields.displacement(),
             derivative: fields.derivative(),
             velocity: fields.velocity(),

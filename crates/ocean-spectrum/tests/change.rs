@@ -236,7 +236,7 @@ fn a_change_that_cannot_be_leaves_the_sea() {
     let mut ocean = sea(desc(8.0));
     let now = arrays(&mut ocean, 2.0);
     let mut other = desc(9.0);
-    other.cascades[1].tile = 50.0;
+    other.cascades = (0..7).map(|i| CascadeDesc::new(16, 250.0 * 0.7f32.powi(i))).collect();
     assert!(ocean.change_to(other, 0.0, 5.0).is_err());
     assert!(ocean.change_to(desc(9.0), f64::NAN, 5.0).is_err());
     assert!(ocean.change_to(desc(9.0), 0.0, -1.0).is_err());

@@ -5,16 +5,22 @@ use std::sync::Arc;
 use open_water_shaders::turns;
 
 use crate::error::check;
+use crate::modes::join::{Joined, alike};
 use crate::modes::moment::Parts;
 use crate::modes::set::ModeSet;
 use crate::query::patch::Band;
 use crate::sea::shoal::Frequencies;
 use crate::{CascadeModes, Ocean, OceanDesc, OceanError};
 
-/// One change: the sea is that of `from` until `start`, then on its way, then that of `to`.
+/// One change: the sea is that of `before` until `start`, then on its way, then that of `after`.
 pub(crate) struct Segment {
+    pub(crate) before: Arc<ModeSet>,
+    pub(crate) after: Arc<ModeSet>,
+    /// The same two, on the same cascades: they are mixed on the way.
     pub(crate) from: Arc<ModeSet>,
     pub(crate) to: Arc<ModeSet>,
+    /// Which cascade each was before and is after, where cascades change.
+    places: Option<Vec<[Option<usize>; 2]>>,
     pub(crate) start: f64,
     seconds: f64,
     /// What the two sets have in common, where their modes move together; then amplitudes are mixed, else two seas
@@ -104,46 +110,60 @@ impl Ocean {
     /// changing amplitudes add to velocity and acceleration is left out of [`Self::fields`]: it is smaller than they
     /// are by about the wave's period over `seconds`.
     ///
+    /// Cascades may change as well. Those of the same tile, whose neighbours stay too, keep their waves whatever their size:
+    /// what only one size holds comes or goes. All others fade, old into new. On the way the sea has the cascades of both
+    /// ([`Self::cascade_places`]), and costs as much.
+    ///
     /// Asked for while the amplitudes of an earlier change move, the new one starts from the sea of that moment; while
     /// an earlier one fades, `start` is put off to its end. Earlier changes that would start later are dropped, and
     /// those that are over at the time set may be forgotten. This makes the modes of the new sea, and takes as long as
     /// [`Self::new`]; to spare a frame that, change a clone on another thread and take it over.
     ///
     /// # Errors
-    /// [`OceanError::InvalidValue`] as [`OceanDesc::validate`], if the cascades are not those of the sea (size and
-    /// tile), and for a start that is not finite; the sea is as it was then.
+    /// [`OceanError::InvalidValue`] as [`OceanDesc::validate`], for cascades that are more than 8 together with those of the
+    /// sea before that are others, and for a start that is not finite; the sea is as it was then.
     pub fn change_to(&mut self, mut desc: OceanDesc, start: f64, seconds: f64) -> Result<(), OceanError> {
         check("start", start, true, "a finite time")?;
         check("seconds", seconds, (0.0..=86_400.0).contains(&seconds), "0 to 86400 s")?;
         desc.queries = self.base.desc.queries;
-        let to = Arc::new(ModeSet::new(desc, self.base.level)?);
-        let same = |(c, (a, b)): (usize, (&CascadeModes, &CascadeModes))| {
-            let ok = a.size == b.size && a.tile == b.tile && a.band == b.band;
-            check("cascade of a change", c as f64, ok, "size and tile as before")
-        };
-        check("cascades", to.modes.len() as f64, to.modes.len() == self.base.modes.len(), "as many as before")?;
-        self.base.modes.iter().zip(&to.modes).enumerate().try_for_each(same)?;
+        let after = Arc::new(ModeSet::new(desc, self.base.level)?);
 
-        let mut segments = std::mem::take(&mut self.segments);
-        segments.retain(|segment| segment.start < start);
-        let (from, start) = match segments.last() {
+        let asked = start;
+        let earlier = self.segments.iter().rfind(|segment| segment.start < start);
+        let (before, start) = match earlier {
             None => (Arc::clone(&self.base), start),
-            Some(last) if last.end() <= start => (Arc::clone(&last.to), start),
-            Some(last) if last.cross.is_some() => (Arc::new(last.mixed(start)), start),
-            Some(last) => (Arc::clone(&last.to), last.end()),
+            Some(last) if last.end() <= start => (Arc::clone(&last.after), start),
+            Some(last) if last.cross.is_some() && last.places.is_none() => (Arc::new(last.mixed(start)), start),
+            Some(last) => (Arc::clone(&last.after), last.end()),
+        };
+        let (from, to, places) = match alike(&before, &after) {
+            true => (Arc::clone(&before), Arc::clone(&after), None),
+            false => {
+                let Joined { from, to, places } = Joined::new(&before, &after)?;
+                (Arc::new(from), Arc::new(to), Some(places))
+            }
         };
         let phase = [&from, &to].map(|set| set.phase_at(start + 0.5 * seconds));
         let covariance = from.modes.iter().zip(&to.modes).map(|(a, b)| covariance(a, b, phase)).sum();
         let cross = Cross::of(&from, &to);
-        segments.push(Arc::new(Segment { from, to, start, seconds, cross, covariance }));
-        while segments.len() > 1 && segments[1].start <= self.time_set {
-            self.base = Arc::clone(&segments[1].from);
-            segments.remove(0);
+        self.segments.retain(|segment| segment.start < asked);
+        self.segments.push(Arc::new(Segment { before, after, from, to, places, start, seconds, cross, covariance }));
+        while self.segments.len() > 1 && self.segments[1].start <= self.time_set {
+            self.base = Arc::clone(&self.segments[1].before);
+            self.segments.remove(0);
         }
-        self.segments = segments;
         self.refresh();
         Ok(())
     }
+
+    /// While cascades change: which one each was in the sea before and is in the sea after. `None` at all other times.
+    pub fn cascade_places(&self) -> Option<&[[Option<usize>; 2]]> {
+        match self.parts() {
+            Parts::Mixed(segment) => segment.places.as_deref(),
+            Parts::Alone(_) => None,
+        }
+    }
+
     /// The sea as it will be when no change is left.
     pub fn settled(&self) -> Self {
         let mut settled = self.clone();

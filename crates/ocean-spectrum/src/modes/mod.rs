@@ -4,6 +4,7 @@
 //! a subset of the same modes.
 
 pub(crate) mod change;
+pub(crate) mod join;
 pub(crate) mod moment;
 pub(crate) mod random;
 pub(crate) mod set;

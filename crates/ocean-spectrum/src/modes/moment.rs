@@ -84,7 +84,7 @@ impl Ocean {
         match self.segments.iter().rfind(|segment| segment.start <= t) {
             None => Parts::Alone(&self.base),
             Some(segment) if t < segment.end() => Parts::Mixed(segment),
-            Some(segment) => Parts::Alone(&segment.to),
+            Some(segment) => Parts::Alone(&segment.after),
         }
     }
 

@@ -57,7 +57,7 @@ impl ModeSet {
         Ok(Self::of(level, desc, vec![(1.0, Arc::new(spectrum))], modes, notices))
     }
 
-    fn of(
+    pub(crate) fn of(
         level: Level,
         desc: OceanDesc,
         spectra: Vec<(f64, Arc<WaveSpectrum>)>,
