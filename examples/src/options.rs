@@ -27,6 +27,8 @@ pub enum Quality {
     Medium,
     /// A strong GPU.
     High,
+    /// The strongest, and pictures.
+    Ultra,
     /// The set-up of Yang et al. 2017: Phillips, FFT 1024^2, 5-point grid 512^2, projected grid 128^2, 1440x900.
     Paper,
 }
@@ -111,6 +113,7 @@ impl Options {
             Quality::Low => Preset::Low,
             Quality::Medium => Preset::Medium,
             Quality::High => Preset::High,
+            Quality::Ultra => Preset::Ultra,
             Quality::Paper => Preset::Paper,
         }
     }
@@ -126,6 +129,7 @@ impl Options {
             Quality::Low => [128, 192],
             Quality::Medium => [192, 320],
             Quality::High => [512, 768],
+            Quality::Ultra => [768, 1152],
             Quality::Paper => [128, 128],
         }
     }
@@ -134,7 +138,7 @@ impl Options {
     pub fn samples(&self, software: bool) -> u32 {
         match self.preset {
             Quality::Low => 1,
-            Quality::High => 4,
+            Quality::High | Quality::Ultra => 4,
             Quality::Medium | Quality::Paper => {
                 if software {
                     1

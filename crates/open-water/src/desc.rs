@@ -147,17 +147,23 @@ pub enum Preset {
     Medium,
     /// A strong GPU.
     High,
+    /// The strongest, and pictures.
+    Ultra,
     /// The set-up of Yang et al. 2017: one FFT tile of 1024^2, the 5-point scheme on a moving grid of 512^2.
     Paper,
 }
 
 impl Preset {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Low, Self::Medium, Self::High, Self::Ultra, Self::Paper];
+
     /// The water of this quality, with its default sea.
     pub fn water(self) -> OpenWaterDesc {
         let (size, tiles): (u32, &[f32]) = match self {
             Self::Low => (128, &[485.0, 72.0, 10.8]),
             Self::Medium => (256, &[485.0, 72.0, 10.8]),
             Self::High => (512, &[901.0, 131.0, 17.3]),
+            Self::Ultra => (512, &[901.0, 131.0, 17.3]),
             Self::Paper => (1024, &[500.0]),
         };
         OpenWaterDesc {
@@ -179,6 +185,7 @@ impl Preset {
             Self::Low => (192, 0.5, Scheme::Dispersive, 12),
             Self::Medium => (384, 0.25, Scheme::Dispersive, 16),
             Self::High => (512, 0.25, Scheme::Dispersive, 20),
+            Self::Ultra => (768, 0.1875, Scheme::Dispersive, 20),
             Self::Paper => (512, 0.125, Scheme::FivePoint, 12),
         };
         // 5-point: a = (5.2/60/.125)^2 = .481 <= .49.

@@ -1,5 +1,6 @@
 //! The grids of an [`OpenWater`]: how they are added, removed and read.
 
+use glam::{DVec2, Vec2};
 use wave_grid::WaveGrid;
 
 use crate::OpenWaterError;
@@ -81,6 +82,48 @@ impl OpenWater {
         }
         grid.set_medium(self.shore.medium());
         Ok(grid)
+    }
+
+    /// Gives a grid homed on the CPU other cells while it runs: a grid of those takes its waves over and fades in within a
+    /// second, as the old one fades out. Returns its handle; that of the old one is void.
+    ///
+    /// # Errors
+    /// As [`Self::add_grid`]; there is no such grid, it is homed on the GPU, fed, or others lie in it. Then nothing was changed.
+    pub fn set_grid_cells(
+        &mut self,
+        id: GridId,
+        cells: [u32; 2],
+        cell_size: [f32; 2],
+    ) -> Result<GridId, OpenWaterError> {
+        let old = self.grids.present(id)?;
+        let nested = self.grids.iter().any(|grid| grid.desc.within == Some(id));
+        if old.desc.home == GridHome::Gpu || old.desc.feed.any() || nested {
+            let bound = "of a grid homed on the CPU, not fed, and without others in it: remove it and add another";
+            return Err(OpenWaterError::InvalidValue { field: "cells", value: cells[0].into(), bound });
+        }
+        let waves = match &old.sim {
+            Sim::Cpu(waves) => Some(waves.clone()).filter(|waves| !waves.is_asleep()),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(_) => None,
+        };
+        let (trail, point, middle) = (old.trail, old.point, old.middle);
+        let window = old.window();
+        let new = self.add_grid(GridDesc { cells, cell_size, ..old.desc.clone() })?;
+        if let Some(grid) = self.grids.get_mut(new) {
+            (grid.trail, grid.point, grid.middle) = (trail, point, middle);
+            let extent = DVec2::from(window.cells.map(f64::from)) * Vec2::from(window.cell_size).as_dvec2();
+            grid.center_on(window.world_corner() + 0.5 * extent);
+            if let (Sim::Cpu(sim), Some(waves)) = (&mut grid.sim, &waves) {
+                sim.resample(waves);
+                grid.gain = 0.0;
+            }
+        }
+        if let Some(grid) = self.grids.get_mut(id).filter(|_| waves.is_some()) {
+            grid.into = Some(new);
+        }
+        self.remove_grid(id)?;
+        self.grids.cut_holes();
+        Ok(new)
     }
 
     /// Removes a grid. The waves of one that is stepped on the CPU fade over a second, those of others end.

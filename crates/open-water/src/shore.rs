@@ -115,8 +115,8 @@ impl OpenWater {
         }
         self.shore.terrain = terrain;
         let baked = self.bake_shore();
+        let baked = self.maps_of_now(baked);
         self.feed_grids(&baked)?;
-        self.shore.turning = None;
         self.show_shore(baked)
     }
 

@@ -14,6 +14,7 @@ use crate::follow::Look;
 use crate::grids::Grids;
 use crate::land::Shore;
 use crate::moorings::{Mooring, Moorings};
+use crate::sea::Coming;
 use crate::store::{BodyId, BodyStore, MooringId};
 use crate::wakes::Wakes;
 
@@ -42,6 +43,8 @@ pub struct OpenWater {
     pub(crate) tick: u64,
     /// None when the sea is calm.
     pub(crate) ocean: Option<Ocean>,
+    /// The next change of the sea.
+    pub(crate) coming: Option<Coming>,
     pub(crate) grids: Grids,
     pub(crate) bodies: Bodies,
     pub(crate) fleets: Fleets,
@@ -68,6 +71,7 @@ impl OpenWater {
             clock: Clock::new(desc.tick, desc.max_ticks_per_frame),
             tick: 0,
             ocean,
+            coming: None,
             grids: Grids::default(),
             bodies: Bodies::default(),
             fleets: Fleets::default(),

@@ -22,7 +22,7 @@ pub(super) fn decay(dt: f32) -> f32 {
 
 /// Variance of the divergence of the horizontal displacement at choppiness 1, of each cascade: that of the first mode
 /// set, that of the second, and the mixed term, so that of a mix follows from its weights.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Divergence {
     sets: [u64; 2],
     terms: Vec<[f64; 3]>,

@@ -13,7 +13,7 @@ const MORE_LEVELS: u32 = 2;
 /// Texels per side that a workgroup reads.
 const BLOCK: u32 = 32;
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Mips {
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,
@@ -21,7 +21,7 @@ struct Mips {
     side: u32,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Looks {
     first: (wgpu::ComputePipeline, wgpu::BindGroup),
     mips: Vec<Mips>,

@@ -27,7 +27,7 @@ use std::ops::Range;
 use open_water_shaders::ocean::{MAX_CASCADES, OceanCascade, OceanParams};
 use open_water_shaders::surface::SurfaceCascade;
 
-use crate::Ocean;
+use crate::{CascadeModes, Ocean};
 pub use error::GpuError;
 use foam::Divergence;
 pub use foam::{FOAM_SECONDS, FOAM_THRESHOLD};
@@ -43,7 +43,7 @@ use upload::Shape;
 /// *Fields*, 32-bit floats: one texture array with a layer per cascade for the displacement and as many again for the
 /// derivative, each as in [`crate::CascadeFields`]. *Looks*: half-float copies with mips down to 2 x 2 texels, the
 /// displacement's spare channel holding foam, 0 to 1.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct GpuOcean {
     shape: Shape,
     params_buffer: wgpu::Buffer,
@@ -77,7 +77,19 @@ impl GpuOcean {
     /// # Errors
     /// As [`Self::new`].
     pub fn with_kernel(device: &wgpu::Device, ocean: &Ocean, kernel: FftKernel) -> Result<Self, GpuError> {
-        let shape = Shape::of(ocean);
+        Self::of_modes(device, ocean.modes(), kernel)
+    }
+
+    /// As [`Self::new`], for the sea as it is at time `t`, seconds: another one while cascades change.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn new_at(device: &wgpu::Device, ocean: &Ocean, t: f64) -> Result<Self, GpuError> {
+        Self::of_modes(device, ocean.mode_sets_at(t).0, FftKernel::of(device))
+    }
+
+    fn of_modes(device: &wgpu::Device, modes: &[CascadeModes], kernel: FftKernel) -> Result<Self, GpuError> {
+        let shape = Shape::of(modes);
         shape.check(&device.limits())?;
         let params_buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("ocean params"),
@@ -85,7 +97,7 @@ impl GpuOcean {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let synthesis = Synthesis::new(device, kernel, shape, ocean, &params_buffer);
+        let synthesis = Synthesis::new(device, kernel, shape, modes, &params_buffer);
         let looks = Looks::new(device, shape, &params_buffer, &synthesis.fields);
         Ok(Self { shape, params_buffer, divergence: Divergence::default(), synthesis, looks })
     }
@@ -95,14 +107,36 @@ impl GpuOcean {
     /// # Errors
     /// [`GpuError::InvalidValue`] if it cannot: make a new one then.
     pub fn check(&self, ocean: &Ocean) -> Result<(), GpuError> {
-        self.shape.check_same(Shape::of(ocean))
+        self.shape.check_same(Shape::of(ocean.modes()))
+    }
+
+    /// Whether the sea can be drawn at time `t`, seconds, and without making anything more.
+    pub fn is_ready_at(&self, ocean: &Ocean, t: f64) -> bool {
+        let (first, second) = ocean.mode_sets_at(t);
+        self.shape == Shape::of(first) && self.synthesis.suits(first) && (second.is_none() || self.synthesis.mixes())
+    }
+
+    /// What is ready for the sea at time `t`, seconds: made on any thread while this draws on. It shares what stays
+    /// the same; foam stays where the cascades do.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn ready_at(&self, device: &wgpu::Device, ocean: &Ocean, t: f64) -> Result<Self, GpuError> {
+        let (first, second) = ocean.mode_sets_at(t);
+        let mut ready = if self.shape == Shape::of(first) { self.clone() } else { Self::new_at(device, ocean, t)? };
+        ready.synthesis.forget();
+        ready.synthesis.suit(first);
+        if second.is_some() {
+            ready.synthesis.prepare_mixed();
+        }
+        Ok(ready)
     }
 
     /// Sets the time for the work that is encoded next: `t` in seconds, and the seconds since the last looks, by which
     /// foam fades (not finite or negative: 0). Mode sets that changed are uploaded, also those of another sea; foam
-    /// stays. A sea that does not pass [`Self::check`] is ignored. It holds for what the frame's encoder does from here on.
+    /// stays. One that does not pass [`Self::check`] at that time is ignored. It holds for what the frame's encoder does from here on.
     pub fn set_time(&mut self, frame: &mut Frame<'_>, ocean: &Ocean, t: f64, foam_dt: f32) {
-        if self.check(ocean).is_err() {
+        if self.shape != Shape::of(ocean.mode_sets_at(t).0) {
             return;
         }
         self.synthesis.set(frame, ocean, t);
@@ -117,13 +151,13 @@ impl GpuOcean {
             foam_decay: foam::decay(foam_dt),
             cascades: [OceanCascade::default(); MAX_CASCADES],
         };
-        let known = ocean.modes().iter().zip(self.divergence.cascades(&moment)).zip(&self.synthesis.halves);
+        let known = ocean.mode_sets_at(t).0.iter().zip(self.divergence.cascades(&moment)).zip(&self.synthesis.halves);
         for (cascade, ((modes, (foam_spread, foam_share)), &half)) in params.cascades.iter_mut().zip(known) {
             let place = SurfaceCascade { offset: [0.0; 2], tile: modes.tile, size: self.shape.size as f32 };
             *cascade = OceanCascade { wave_step: modes.step() as f32, foam_spread, foam_share, half, place };
         }
-        for (c, cascade) in (0..ocean.modes().len()).zip(&mut params.cascades) {
-            cascade.place.offset = ocean.offset(c).into();
+        for (offset, cascade) in ocean.offsets_at(t).zip(&mut params.cascades) {
+            cascade.place.offset = offset.into();
         }
         frame.write(&self.params_buffer, 0, bytemuck::bytes_of(&params));
     }

@@ -7,7 +7,7 @@ use super::upload::{self, Shape};
 use crate::{CascadeModes, Ocean};
 
 /// Amplitudes and turns, a layer per cascade; while two mode sets are mixed, as many again for the second.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct ModeTextures {
     shape: Shape,
     amplitudes: wgpu::Texture,
@@ -70,6 +70,11 @@ impl ModeTextures {
     /// Whether there is room for a second set.
     pub(super) fn is_mixed(&self) -> bool {
         self.amplitudes.depth_or_array_layers() > self.shape.count
+    }
+
+    /// Holds nothing any more, as far as it knows.
+    pub(super) fn forget(&mut self) {
+        self.held = [0; 2];
     }
 
     /// Uploads the mode sets of a time, as far as they are not held.

@@ -7,7 +7,7 @@ use super::GpuPass;
 use super::modes::ModeTextures;
 use super::stages::{self, Class, Step, classes, steps};
 use super::upload::{self, Shape};
-use crate::Ocean;
+use crate::{CascadeModes, Ocean};
 
 /// How the transforms run. The results are the same to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +30,7 @@ impl FftKernel {
     }
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Dispatch {
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,
@@ -38,7 +38,7 @@ struct Dispatch {
     info: GpuPass,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Synthesis {
     device: wgpu::Device,
     kernel: FftKernel,
@@ -66,7 +66,7 @@ impl Synthesis {
         device: &wgpu::Device,
         kernel: FftKernel,
         shape: Shape,
-        ocean: &Ocean,
+        modes: &[CascadeModes],
         params: &wgpu::Buffer,
     ) -> Self {
         let (fields, [displacement, derivative]) = upload::texture(device, "ocean fields", shape, FORMAT, 1);
@@ -76,7 +76,7 @@ impl Synthesis {
             kernel,
             shape,
             params: params.clone(),
-            halves: ocean.modes().iter().map(stages::half).collect(),
+            halves: modes.iter().map(stages::half).collect(),
             modes: ModeTextures::new(device, shape, false),
             first: [const { Vec::new() }; 2],
             rest: Vec::new(),
@@ -93,19 +93,46 @@ impl Synthesis {
     /// Takes over the mode sets of a time. What two of them need is made when it is needed first.
     pub(super) fn set(&mut self, frame: &mut Frame<'_>, ocean: &Ocean, t: f64) {
         let (first, second) = ocean.mode_sets_at(t);
-        if !first.iter().map(stages::half).eq(self.halves.iter().copied()) {
-            self.halves = first.iter().map(stages::half).collect();
+        self.suit(first);
+        self.is_mixed = second.is_some();
+        if self.is_mixed {
+            self.prepare_mixed();
+        }
+        self.modes.set(frame, ocean, t);
+    }
+
+    /// Whether the stages are those for these modes.
+    pub(super) fn suits(&self, modes: &[CascadeModes]) -> bool {
+        modes.iter().map(stages::half).eq(self.halves.iter().copied())
+    }
+
+    /// Makes the stages for these modes.
+    pub(super) fn suit(&mut self, modes: &[CascadeModes]) {
+        if !self.suits(modes) {
+            self.halves = modes.iter().map(stages::half).collect();
             self.make_stages();
         }
-        self.is_mixed = second.is_some();
-        if self.is_mixed && !self.modes.is_mixed() {
+    }
+
+    /// Will upload the modes anew: another may have used the textures.
+    pub(super) fn forget(&mut self) {
+        self.modes.forget();
+    }
+
+    /// Whether two mode sets can be mixed at once.
+    pub(super) fn mixes(&self) -> bool {
+        !self.first[1].is_empty()
+    }
+
+    /// Makes what two mode sets need.
+    pub(super) fn prepare_mixed(&mut self) {
+        if !self.modes.is_mixed() {
             self.modes = ModeTextures::new(&self.device, self.shape, true);
             self.first[0] = self.first_stages(false);
         }
-        if self.is_mixed && self.first[1].is_empty() {
+        if self.first[1].is_empty() {
             self.first[1] = self.first_stages(true);
         }
-        self.modes.set(frame, ocean, t);
     }
 
     fn make_stages(&mut self) {

@@ -3,7 +3,7 @@
 use open_water_shaders::ocean::{FFT_BLOCK, FFT_THREADS, MIN_SIZE};
 
 use super::error::{GpuError, at_most, equal};
-use crate::Ocean;
+use crate::CascadeModes;
 
 /// Cascades and their size, from which every array's size follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,10 +13,10 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    pub(super) fn of(ocean: &Ocean) -> Self {
+    pub(super) fn of(modes: &[CascadeModes]) -> Self {
         // The modes of a cascade do not depend on its size: all are synthesised at the largest.
-        let size = ocean.modes().iter().map(|modes| modes.size).max().unwrap_or(MIN_SIZE);
-        Self { count: ocean.modes().len() as u32, size }
+        let size = modes.iter().map(|modes| modes.size).max().unwrap_or(MIN_SIZE);
+        Self { count: modes.len() as u32, size }
     }
 
     /// Layers of displacement and derivative together.

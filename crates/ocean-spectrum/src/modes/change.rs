@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use open_water_shaders::surface::MAX_CASCADES;
 use open_water_shaders::turns;
 
 use crate::error::check;
-use crate::modes::join::{Joined, alike};
+use crate::modes::bands;
+use crate::modes::join::{Joined, TOGETHER, alike, common};
 use crate::modes::moment::Parts;
 use crate::modes::set::ModeSet;
 use crate::query::patch::Band;
@@ -110,21 +112,20 @@ impl Ocean {
     /// changing amplitudes add to velocity and acceleration is left out of [`Self::fields`]: it is smaller than they
     /// are by about the wave's period over `seconds`.
     ///
-    /// Cascades may change as well. Those of the same tile, whose neighbours stay too, keep their waves whatever their size:
-    /// what only one size holds comes or goes. All others fade, old into new. On the way the sea has the cascades of both
+    /// Cascades may change as well. Those of the same tile, whose neighbours stay too, keep their waves whatever their size,
+    /// and only what one size alone holds comes or goes. All others fade, old into new. On the way the sea has the cascades of both
     /// ([`Self::cascade_places`]), and costs as much.
     ///
     /// Asked for while the amplitudes of an earlier change move, the new one starts from the sea of that moment; while
     /// an earlier one fades, `start` is put off to its end. Earlier changes that would start later are dropped, and
     /// those that are over at the time set may be forgotten. This makes the modes of the new sea, and takes as long as
-    /// [`Self::new`]; to spare a frame that, change a clone on another thread and take it over.
+    /// [`Self::new`]; to spare a frame that, change a clone on another thread and [`Self::adopt`] it.
     ///
     /// # Errors
     /// [`OceanError::InvalidValue`] as [`OceanDesc::validate`], for cascades that are more than 8 together with those of the
     /// sea before that are others, and for a start that is not finite; the sea is as it was then.
     pub fn change_to(&mut self, mut desc: OceanDesc, start: f64, seconds: f64) -> Result<(), OceanError> {
-        check("start", start, true, "a finite time")?;
-        check("seconds", seconds, (0.0..=86_400.0).contains(&seconds), "0 to 86400 s")?;
+        self.check_change(&desc, start, seconds)?;
         desc.queries = self.base.desc.queries;
         let after = Arc::new(ModeSet::new(desc, self.base.level)?);
 
@@ -144,7 +145,7 @@ impl Ocean {
             }
         };
         let phase = [&from, &to].map(|set| set.phase_at(start + 0.5 * seconds));
-        let covariance = from.modes.iter().zip(&to.modes).map(|(a, b)| covariance(a, b, phase)).sum();
+        let covariance = common(&before, &after).iter().map(|[a, b]| covariance(a, b, phase)).sum();
         let cross = Cross::of(&from, &to);
         self.segments.retain(|segment| segment.start < asked);
         self.segments.push(Arc::new(Segment { before, after, from, to, places, start, seconds, cross, covariance }));
@@ -154,6 +155,29 @@ impl Ocean {
         }
         self.refresh();
         Ok(())
+    }
+
+    /// Whether [`Self::change_to`] would do it, in no time.
+    ///
+    /// # Errors
+    /// As [`Self::change_to`].
+    pub fn check_change(&self, desc: &OceanDesc, start: f64, seconds: f64) -> Result<(), OceanError> {
+        check("start", start, true, "a finite time")?;
+        check("seconds", seconds, (0.0..=86_400.0).contains(&seconds), "0 to 86400 s")?;
+        desc.validate()?;
+        let before = self.segments.last().map_or(&self.base, |last| &last.after);
+        let bands = bands(&desc.cascades);
+        let stays = |own: &CascadeModes| {
+            desc.cascades.iter().zip(&bands).any(|(cascade, band)| (cascade.tile, *band) == (own.tile, own.band))
+        };
+        let both = desc.cascades.len() + before.modes.iter().filter(|own| !stays(own)).count();
+        check("cascades", both as f64, both <= MAX_CASCADES, TOGETHER)
+    }
+
+    /// Takes over the changes of a clone that was changed, on another thread say.
+    pub fn adopt(&mut self, changed: Self) {
+        (self.base, self.segments) = (changed.base, changed.segments);
+        self.refresh();
     }
 
     /// While cascades change: which one each was in the sea before and is in the sea after. `None` at all other times.

@@ -6,6 +6,10 @@ use crate::error::check;
 use crate::modes::set::ModeSet;
 use crate::{CascadeDesc, CascadeModes, OceanDesc, OceanError};
 
+/// How many cascades two seas may have on the way.
+pub(crate) const TOGETHER: &str =
+    "8 or fewer together with those of the sea before that are others: change in two steps, or sizes alone";
+
 /// Two mode sets on the cascades of both.
 pub(crate) struct Joined {
     pub(crate) from: ModeSet,
@@ -26,18 +30,24 @@ fn same_waves(a: &CascadeModes, b: &CascadeModes) -> bool {
 }
 
 impl Joined {
-    /// The cascades of both, longest first. Those of the same tile and band are one, of the larger size: modes do not
-    /// depend on it, so their waves go on.
+    /// The cascades of both, longest first. Those that are the same are one. So are those that differ in size alone where
+    /// there is no room for both, of the larger size: what arrays lose of short waves then changes at once.
     pub(crate) fn new(a: &ModeSet, b: &ModeSet) -> Result<Self, OceanError> {
-        let mut places: Vec<[Option<usize>; 2]> = (0..a.modes.len()).map(|i| [Some(i), None]).collect();
-        for (j, modes) in b.modes.iter().enumerate() {
-            match a.modes.iter().position(|own| same_waves(own, modes)) {
-                Some(i) => places[i][1] = Some(j),
-                None => places.push([None, Some(j)]),
+        let placed = |one: &dyn Fn(&CascadeModes, &CascadeModes) -> bool| {
+            let mut places: Vec<[Option<usize>; 2]> = (0..a.modes.len()).map(|i| [Some(i), None]).collect();
+            for (j, modes) in b.modes.iter().enumerate() {
+                match a.modes.iter().position(|own| one(own, modes)) {
+                    Some(i) => places[i][1] = Some(j),
+                    None => places.push([None, Some(j)]),
+                }
             }
+            places
+        };
+        let mut places = placed(&|a, b| a.size == b.size && same_waves(a, b));
+        if places.len() > MAX_CASCADES {
+            places = placed(&same_waves);
         }
-        let bound = "8 or fewer together with those of the sea before that are others: change in two steps";
-        check("cascades", places.len() as f64, places.len() <= MAX_CASCADES, bound)?;
+        check("cascades", places.len() as f64, places.len() <= MAX_CASCADES, TOGETHER)?;
         let [own, other] = [a, b].map(|set| &set.modes);
         let both = |[i, j]: [Option<usize>; 2]| [i.map(|i| &own[i]), j.map(|j| &other[j])].into_iter().flatten();
         let tile = |place: [Option<usize>; 2]| both(place).map(|modes| modes.tile).fold(0.0, f32::max);
@@ -55,6 +65,13 @@ impl Joined {
         let (from, to) = (set(a, 0), set(b, 1));
         Ok(Self { from, to, places })
     }
+}
+
+/// The modes of the cascades that hold the same waves, two by two, in arrays of one size.
+pub(crate) fn common(a: &ModeSet, b: &ModeSet) -> Vec<[CascadeModes; 2]> {
+    let pairs = a.modes.iter().flat_map(|own| b.modes.iter().map(move |other| [own, other]));
+    let pairs = pairs.filter(|[own, other]| same_waves(own, other));
+    pairs.map(|pair| pair.map(|modes| padded(Some(modes), modes, pair[0].size.max(pair[1].size)))).collect()
 }
 
 /// Modes in arrays of another size, none where there are none, on the tile and in the band of another cascade.

@@ -76,8 +76,11 @@ impl Gpu {
         let moment = (plan.tick, plan.alpha);
         let mut parts = Parts::default();
         self.shown = self.held(frame.losses());
+        let ready = ocean.is_none_or(|ocean| self.follow_sea(ocean, plan.time));
         for work in &plan.work {
             match *work {
+                // Until its textures are there, the sea is shown as it was.
+                Work::Table | Work::Ocean { .. } if !ready => {}
                 Work::Table => {
                     self.shown.listed = grids.iter().filter(|grid| grid.is_awake()).count();
                     self.shown.shore = plan.shore;

@@ -9,6 +9,7 @@ mod host;
 pub(crate) mod land;
 mod limits;
 mod mirror;
+mod sea;
 mod surface;
 
 use ocean_spectrum::Ocean;
@@ -25,6 +26,7 @@ pub(crate) struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
     ocean: Option<GpuOcean>,
+    next: sea::Next,
     surface: SurfaceBinding,
     pub(crate) remote: grids::RemoteGrids,
     /// Not there while a frame writes.
@@ -56,6 +58,7 @@ impl Gpu {
                 device: device.clone(),
                 queue: queue.clone(),
                 ocean: gpu_ocean,
+                next: sea::Next::default(),
                 surface,
                 remote: grids::RemoteGrids::new(device),
                 staging: Some(Staging::new(device)),

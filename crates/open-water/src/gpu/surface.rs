@@ -127,7 +127,7 @@ impl SurfaceBinding {
         Ok(())
     }
 
-    fn bind(&mut self, device: &wgpu::Device, ocean: Option<&GpuOcean>) {
+    pub(crate) fn bind(&mut self, device: &wgpu::Device, ocean: Option<&GpuOcean>) {
         let views = Views { ocean, land: self.land.as_ref(), blank: &self.blank };
         self.group = group(device, &self.layout, &self.table, &self.pool, &self.sampler, views);
     }
@@ -160,9 +160,9 @@ impl SurfaceBinding {
             for (i, slope) in table.hidden_slope.iter_mut().enumerate() {
                 *slope = ocean.hidden_slope((i as f32 - HIDDEN_SLOPE_BIAS as f32).exp2());
             }
-            for (c, modes) in ocean.modes().iter().enumerate() {
-                table.cascades[c] =
-                    SurfaceCascade { offset: ocean.offset(c).into(), tile: modes.tile, size: size as f32 };
+            let modes = ocean.mode_sets_at(time).0;
+            for ((entry, modes), offset) in table.cascades.iter_mut().zip(modes).zip(ocean.offsets_at(time)) {
+                *entry = SurfaceCascade { offset: offset.into(), tile: modes.tile, size: size as f32 };
                 table.cascade_count += 1;
             }
         }

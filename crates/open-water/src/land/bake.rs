@@ -82,6 +82,24 @@ impl Baked {
         baked.incoming.iter_mut().zip(&self.incoming).for_each(|(to, from)| *to = mix(*from, *to));
         baked
     }
+
+    /// The maps of two seas for the cascades that both have on the way from one to the other; a cascade that one of them has
+    /// not has the other's.
+    pub(crate) fn placed(maps: [&Self; 2], places: &[[Option<usize>; 2]]) -> [Self; 2] {
+        std::array::from_fn(|which| {
+            let mut placed = maps[which].clone();
+            for (at, factors) in placed.factors.iter_mut().enumerate() {
+                *factors = Factors::default().map(|_| 1.0);
+                for (factor, place) in factors.iter_mut().zip(places) {
+                    let own = place[which].map(|c| (which, c)).or(place[1 - which].map(|c| (1 - which, c)));
+                    if let Some((map, c)) = own {
+                        *factor = maps[map].factors.get(at).map_or(1.0, |factors| factors[c]);
+                    }
+                }
+            }
+            placed
+        })
+    }
 }
 
 #[cfg(feature = "gpu")]

@@ -22,6 +22,8 @@ pub(crate) struct Shore {
     pub(crate) revision: u64,
     /// The maps' way from one sea's to another's.
     pub(crate) turning: Option<Turning>,
+    /// The order of the cascades in the maps, while they change.
+    pub(crate) places: Option<Vec<[Option<usize>; 2]>>,
     /// The sea's modes ([`Ocean::revision`](ocean_spectrum::Ocean::revision)) with which grids are fed.
     pub(crate) fed_revision: u64,
 }
@@ -30,6 +32,8 @@ pub(crate) struct Shore {
 pub(crate) struct Turning {
     pub(crate) from: Baked,
     pub(crate) to: Baked,
+    /// While cascades change: the maps of those that stay.
+    pub(crate) after: Option<Baked>,
     /// When it begins and how long it takes, seconds.
     pub(crate) start: f64,
     pub(crate) seconds: f64,
