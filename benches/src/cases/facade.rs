@@ -42,7 +42,7 @@ pub(super) const TICK: Case = Case {
     run: tick,
 };
 
-fn view() -> [View; 1] {
+pub(super) fn view() -> [View; 1] {
     [View { eye: glam::Vec3::new(0.0, 10.0, 0.0), pixel_angle: 1e-3 }]
 }
 

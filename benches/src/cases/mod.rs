@@ -22,6 +22,7 @@ mod fleet_inertia;
 mod fleet_kernel;
 mod fleet_tick;
 mod fleet_water;
+mod frame_presets;
 mod frame_scene;
 mod frame_soak;
 mod grid_border;
@@ -170,4 +171,6 @@ pub const CASES: &[Case] = &[
     robust::ACCOUNT,
     frame_scene::SCENE,
     frame_soak::SOAK,
+    frame_presets::PRESETS,
+    frame_presets::CHANGE,
 ];

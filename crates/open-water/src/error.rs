@@ -77,19 +77,19 @@ pub enum OpenWaterError {
     #[error(transparent)]
     Body(#[from] floating_body::BodyError),
     /// The handle's body was removed, or is another water's.
-    #[error("body {0:?} does not exist (any more)")]
+    #[error("body {0:?} does not exist: it was removed, or is another water's; forget its handle")]
     UnknownBody(BodyId),
     /// The handle's fleet was removed, or is another water's.
-    #[error("fleet {0:?} does not exist (any more)")]
+    #[error("fleet {0:?} does not exist: it was removed, or is another water's; forget its handle")]
     UnknownFleet(FleetId),
     /// The handle's grid was removed, or is another water's.
-    #[error("grid {0:?} does not exist (any more)")]
+    #[error("grid {0:?} does not exist: it was removed, or is another water's; forget its handle")]
     UnknownGrid(GridId),
     /// The grid follows something else than a point that the game sets.
     #[error("grid {0:?} cannot be given a point to follow: it was not made with `Follow::Point`")]
     NotAPoint(GridId),
     /// The handle's mooring was removed, or its body was, or it is another water's.
-    #[error("mooring {0:?} does not exist (any more)")]
+    #[error("mooring {0:?} does not exist: it was removed, or is another water's; forget its handle")]
     UnknownMooring(MooringId),
     /// Ticks must be run in the order in which `advance` gave them.
     #[error("tick {found} was given, but tick {expected} is due: run the ticks of `advance` in order, each once")]
@@ -100,7 +100,10 @@ pub enum OpenWaterError {
         found: u64,
     },
     /// A grid homed on the GPU needs a water that was made with a device.
-    #[error("a grid with `GridHome::Gpu` needs a water made with `OpenWater::new`, this one is headless")]
+    #[error(
+        "a grid with `GridHome::Gpu` needs a device, and this water is headless: make it with `OpenWater::new`, give it one by \
+         `OpenWater::replace_device`, or home the grid on the CPU: `GridHome::Cpu`"
+    )]
     NoGpu,
     /// The device cannot do what the water needs.
     #[cfg(feature = "gpu")]

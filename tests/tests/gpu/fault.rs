@@ -278,3 +278,35 @@ fn wild_views_draw_nothing_wild() {
     assert!(found.iter().flatten().all(|v| v.is_finite()));
     assert_eq!(context.take_errors(), Vec::<String>::new());
 }
+
+#[test]
+fn quality_changes_on_the_device_while_it_draws() {
+    let context = Context::new();
+    let mut scene = scene(Some(&context), Preset::Low.water());
+    for preset in [Preset::Medium, Preset::Low] {
+        for _ in 0..5 {
+            scene.frame(Some(&context), DT, ALL);
+        }
+        scene.water.set_quality(preset).unwrap();
+        for _ in 0..170 {
+            scene.frame(Some(&context), DT, Consumers::empty());
+        }
+        // What it takes to be drawn is made beside the frames.
+        for _ in 0..200 {
+            std::thread::sleep(std::time::Duration::from_millis(10));
+            scene.frame(Some(&context), 0.3 * DT, Consumers::empty());
+        }
+        let mut plan = scene.water.plan(&view(), Consumers::NORMALS);
+        (plan.time, plan.alpha) = (scene.water.time(), 1.0);
+        context.submit(|encoder| scene.water.encode(&plan, encoder));
+        let points = points(scene.store.get(scene.boat).unwrap().position);
+        let found = probe(&context, &scene.water, &points[..2000]);
+        let mut expected = vec![WaterSample::default(); 2000];
+        scene.water.sample(&points[..2000], &mut expected);
+        let bound = (1e-3 * scene.water.ocean().unwrap().significant_height()).max(1e-3);
+        for (f, e) in found.iter().zip(&expected) {
+            assert!((f[0] - e.height).abs() <= bound, "{preset:?}: {f:?} against {e:?}");
+        }
+    }
+    assert_eq!(context.take_errors(), Vec::<String>::new());
+}

@@ -3,7 +3,7 @@
 #[non_exhaustive]
 pub enum GpuError {
     /// A value outside its bound.
-    #[error("{field} is {value}; allowed on this device: {bound} {limit}")]
+    #[error("{field} is {value}; allowed on this device: {bound} {limit}: take fewer or smaller cascades")]
     InvalidValue {
         /// What is out of bound.
         field: &'static str,
