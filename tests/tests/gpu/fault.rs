@@ -296,6 +296,8 @@ fn quality_changes_on_the_device_while_it_draws() {
             std::thread::sleep(std::time::Duration::from_millis(10));
             scene.frame(Some(&context), 0.3 * DT, Consumers::empty());
         }
+        // A moment that was not drawn yet: that of the CPU's answers.
+        scene.frame(None, DT, ALL);
         let mut plan = scene.water.plan(&view(), Consumers::NORMALS);
         (plan.time, plan.alpha) = (scene.water.time(), 1.0);
         context.submit(|encoder| scene.water.encode(&plan, encoder));
