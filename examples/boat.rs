@@ -6,10 +6,10 @@ use std::process::ExitCode;
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use open_water::{BodyDesc, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, OpenWater, Pose, Scheme, Tick};
 use open_water_examples::{
-    Dice, Flotsam, Helm, Launch, Mark, NoMore, Options, Scene, SceneError, Setup, Stroke, Subject, boat_mesh, run,
-    run_up,
+    Dice, Flotsam, Helm, Launch, Mark, NoMore, Options, Scene, SceneError, Setup, Stroke, Subject, boat_mesh, dry_room,
+    run, run_up,
 };
-use water_view::{DryHull, Instance, MeshId, MeshView};
+use water_view::{Instance, MeshId, MeshView};
 
 /// Pieces of flotsam.
 const FLOTSAM: u32 = 200;
@@ -93,6 +93,7 @@ impl Scene for Boat {
         let desc = BodyDesc::boat(&hull, 0.24 * hull.volume() * 1025.0, SPEED);
         let waterline = hull.waterline(desc.displaced_volume()).level;
         let boat = water.add_body(options.preset().body(desc))?;
+        water.set_dry(boat, Some(dry_room(&hull)?))?;
         let start = BodyState {
             orientation: Quat::from_rotation_y(-FRAC_PI_2),
             velocity: Vec3::new(0.0, 0.0, 6.0),
@@ -159,10 +160,6 @@ impl Scene for Boat {
         }
         let water = &self.water;
         self.flotsam.place(|body| water.drawn_pose(body), queue, meshes);
-    }
-
-    fn dry(&self) -> [Option<DryHull>; 4] {
-        [self.water.drawn_pose(self.boat.body).map(|pose| self.boat.dry(pose)), None, None, None]
     }
 
     fn subject(&self) -> Subject {

@@ -11,9 +11,10 @@ use open_water::{
     Tick, Wake, WakesDesc,
 };
 use open_water_examples::{
-    Course, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Stroke, Subject, Viewpoint, boat_mesh, run, run_up,
+    Course, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Stroke, Subject, Viewpoint, boat_mesh, dry_room,
+    run, run_up,
 };
-use water_view::{Camera, DryHull, Instance, MeshId, MeshView};
+use water_view::{Camera, Instance, MeshId, MeshView};
 
 /// Full speed, m/s.
 const SPEED: f32 = 12.0;
@@ -130,9 +131,11 @@ impl Scene for Fleet {
             water.add_grid(shower(setup.assets.rain, options.seed))?;
         }
         let mut states = BodyStates::default();
+        let room = dry_room(&hull)?;
         let (mut boats, mut courses) = (Vec::new(), Vec::new());
         for (middle, half, from, throttle) in COURSES {
             let body = water.add_body(desc.clone())?;
+            water.set_dry(body, Some(room.clone()))?;
             let turn = Vec2::from_angle(TAU * from);
             let place = Vec2::from(middle) + Vec2::from(half) * turn;
             let along = (Vec2::from(half) * turn.perp()).normalize_or(Vec2::X);
@@ -205,14 +208,6 @@ impl Scene for Fleet {
         if let Some(mesh) = self.mesh {
             meshes.place(queue, mesh, &boats);
         }
-    }
-
-    fn dry(&self) -> [Option<DryHull>; 4] {
-        let near = self.by_distance();
-        std::array::from_fn(|k| {
-            let boat = &self.boats[near.get(k)?.1];
-            Some(boat.dry(self.pose(boat)?))
-        })
     }
 
     fn viewpoint(&self, index: usize) -> Option<Viewpoint> {

@@ -8,10 +8,10 @@ use std::process::ExitCode;
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use open_water::{BodyDesc, BodyState, BodyStates, Controls, Follow, GridDesc, Hull, Look, OpenWater, Pose, Tick};
 use open_water_examples::{
-    Dice, Field, Helm, Launch, Mark, Options, Plough, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, run,
-    run_up,
+    Dice, Field, Helm, Launch, Mark, Options, Plough, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh,
+    dry_room, run, run_up,
 };
-use water_view::{Camera, DryHull, Instance, MeshId, MeshView};
+use water_view::{Camera, Instance, MeshId, MeshView};
 
 /// Radius of the field of 10,000 pieces, metres, and of the boat's course through it.
 const FIELD: f32 = 240.0;
@@ -116,6 +116,7 @@ impl Scene for Flotsam {
         let desc = BodyDesc::boat(&hull, 0.24 * hull.volume() * 1025.0, SPEED);
         let waterline = hull.waterline(desc.displaced_volume()).level;
         let boat = water.add_body(options.preset().body(desc))?;
+        water.set_dry(boat, Some(dry_room(&hull)?))?;
         let start = BodyState {
             orientation: Quat::from_rotation_y(-FRAC_PI_2),
             velocity: Vec3::new(0.0, 0.0, 6.0),
@@ -187,10 +188,6 @@ impl Scene for Flotsam {
             meshes.place(queue, mesh, &[Instance { world_from_mesh, tint: Vec3::ONE }]);
         }
         self.field.place(&self.water, self.eye, queue, meshes);
-    }
-
-    fn dry(&self) -> [Option<DryHull>; 4] {
-        [self.water.drawn_pose(self.boat.body).map(|pose| self.boat.dry(pose)), None, None, None]
     }
 
     fn viewpoint(&self, index: usize) -> Option<Viewpoint> {

@@ -11,10 +11,10 @@ use open_water::{
 };
 use open_water_examples::harbour::{self, World};
 use open_water_examples::{
-    Course, Dice, Flotsam, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, run,
-    run_up,
+    Course, Dice, Flotsam, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh,
+    dry_room, run, run_up,
 };
-use water_view::{DryHull, Instance, MeshData, MeshId, MeshView, WaterLook};
+use water_view::{Instance, MeshData, MeshId, MeshView, WaterLook};
 
 /// Full speed, m/s.
 const SPEED: f32 = 12.0;
@@ -140,9 +140,11 @@ impl Scene for Harbour {
         let basin = water.add_grid(harbour::basin(options.preset(), period))?;
         let places = [Vec2::new(-150.0, 42.0), Vec2::new(16.0, -10.0)];
         let courses = [Course::new(harbour::ferry(), places[0]), Course::new(harbour::round(), places[1])];
+        let room = dry_room(&hull)?;
         let mut boats = Vec::new();
         for wake in [true, true, false] {
             let body = water.add_body(desc.clone())?;
+            water.set_dry(body, Some(room.clone()))?;
             // Smaller cells than the preset's, as there is little room; of the paper's one speed of all waves less, as the boats go at it.
             let preset = options.preset().grid();
             let grid = GridDesc {
@@ -269,11 +271,6 @@ impl Scene for Harbour {
             meshes.place(queue, *mesh, instances);
         }
         self.flotsam.place(|body| world.pose(water, body), queue, meshes);
-    }
-
-    fn dry(&self) -> [Option<DryHull>; 4] {
-        let dry = |i: usize| Some(self.boats[i].dry(self.pose(self.boats[i].body)?));
-        [dry(0), dry(1), dry(2), None]
     }
 
     fn look(&self) -> WaterLook {

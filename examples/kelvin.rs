@@ -11,10 +11,10 @@ use open_water::{
 };
 use open_water_examples::wedge::{self, Room};
 use open_water_examples::{
-    Course, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, crate_box, run,
-    run_up,
+    Course, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, crate_box, dry_room,
+    run, run_up,
 };
-use water_view::{DryHull, Instance, MeshId, MeshView};
+use water_view::{Instance, MeshId, MeshView};
 
 /// The boat's speed that the autopilot keeps, and its full speed, m/s.
 const SPEED: f32 = 5.0;
@@ -174,6 +174,7 @@ impl Scene for Kelvin {
         let desc = options.preset().body(BodyDesc::boat(&hull, 0.24 * hull.volume() * 1025.0, FULL));
         let waterline = hull.waterline(desc.displaced_volume()).level;
         let body = water.add_body(desc)?;
+        water.set_dry(body, Some(dry_room(&hull)?))?;
         let mut states = BodyStates::default();
         let start = BodyState { velocity: Vec3::X * SPEED, ..BodyState::at_rest(Vec3::new(0.0, 0.2, 0.0)) };
         states.insert(body, start);
@@ -250,10 +251,6 @@ impl Scene for Kelvin {
         let lines =
             self.lines().map(|(middle, angle)| at(middle, Quat::from_rotation_y(angle), Vec3::new(1.0, 0.5, 0.1)));
         meshes.place(queue, line, &lines);
-    }
-
-    fn dry(&self) -> [Option<DryHull>; 4] {
-        [Some(self.boat.dry(self.pose())), None, None, None]
     }
 
     fn viewpoint(&self, index: usize) -> Option<Viewpoint> {

@@ -10,9 +10,10 @@ use open_water::{
     BodyDesc, BodyState, BodyStates, Hull, OceanDesc, OpenWater, OpenWaterDesc, SeaState, Tick, WaterSample,
 };
 use open_water_examples::{
-    Dice, Flotsam, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, run, run_up,
+    Dice, Flotsam, Helm, Launch, Mark, Options, Scene, SceneError, Setup, Subject, Viewpoint, boat_mesh, dry_room, run,
+    run_up,
 };
-use water_view::{DryHull, Instance, MeshId, MeshView};
+use water_view::{Instance, MeshId, MeshView};
 
 /// Crates and barrels around the boat, for scale, and how far from it they lie, metres.
 const FLOTSAM: u32 = 24;
@@ -116,6 +117,7 @@ impl Scene for Seas {
         let desc = BodyDesc::boat(&hull, 0.24 * hull.volume() * 1025.0, 10.0);
         let waterline = hull.waterline(desc.displaced_volume()).level;
         let boat = water.add_body(options.preset().body(desc))?;
+        water.set_dry(boat, Some(dry_room(&hull)?))?;
         let mut states = BodyStates::default();
         states.insert(boat, BodyState::at_rest(Vec3::new(0.0, 0.3, 0.0)));
         let mut flotsam = Flotsam::default();
@@ -179,10 +181,6 @@ impl Scene for Seas {
         }
         let water = &self.water;
         self.flotsam.place(|body| water.drawn_pose(body), queue, meshes);
-    }
-
-    fn dry(&self) -> [Option<DryHull>; 4] {
-        [self.water.drawn_pose(self.boat.body).map(|pose| self.boat.dry(pose)), None, None, None]
     }
 
     /// From another boat's deck, which rides the waves, and from a mast.

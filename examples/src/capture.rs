@@ -8,26 +8,28 @@ use image::RgbaImage;
 
 use crate::{Gpu, SceneError};
 
-/// What the capture draws into.
-pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-
 /// A colour target that can be read back.
-pub(crate) struct Capture {
+#[derive(Debug)]
+pub struct Capture {
     texture: wgpu::Texture,
-    pub(crate) view: wgpu::TextureView,
+    view: wgpu::TextureView,
     buffer: wgpu::Buffer,
     pitch: u32,
 }
 
 impl Capture {
-    pub(crate) fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
+    /// Its format.
+    pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+
+    /// A target of so many pixels.
+    pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("capture"),
             size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
+            format: Self::FORMAT,
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
@@ -42,8 +44,16 @@ impl Capture {
         Self { texture, view, buffer, pitch }
     }
 
+    /// The target.
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.view
+    }
+
     /// Submits the encoder and waits for the picture.
-    pub(crate) fn take(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<RgbaImage, SceneError> {
+    ///
+    /// # Errors
+    /// The device is lost, or reported an error.
+    pub fn take(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<RgbaImage, SceneError> {
         let lost = |error: &dyn std::fmt::Display| SceneError::Gpu(format!("{}: {error}", gpu.name));
         encoder.copy_texture_to_buffer(
             self.texture.as_image_copy(),

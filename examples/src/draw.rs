@@ -84,7 +84,6 @@ impl Painter {
         params.wave_height = scene.water().ocean().map_or(0.0, |ocean| ocean.significant_height());
         params.level = scene.water().level();
         params.water = scene.look();
-        params.dry = scene.dry();
         self.view.prepare(&gpu.queue, &params);
         scene.place(&gpu.queue, &mut self.meshes);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

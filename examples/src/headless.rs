@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use open_water::OpenWater;
 
 use crate::camera::Rig;
-use crate::capture::{Capture, FORMAT, Writer};
+use crate::capture::{Capture, Writer};
 use crate::draw::Painter;
 use crate::font;
 use crate::options::Setup;
@@ -49,7 +49,7 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Resu
     let mut scene = S::new(options, setup, water)?;
     let mut target = match &pick {
         Pick::Gpu(gpu) => Target::Gpu {
-            painter: Box::new(Painter::new(gpu, options, &mut scene, FORMAT, size)?),
+            painter: Box::new(Painter::new(gpu, options, &mut scene, Capture::FORMAT, size)?),
             capture: Capture::new(gpu, size),
         },
         Pick::Cpu => Target::Cpu(TopView::new(size)),
@@ -73,7 +73,7 @@ pub(crate) fn run<S: Scene>(options: &Options, setup: &Setup<S::Assets>) -> Resu
                 let camera = rig.look(&scene, size, FRAME);
                 scene.seen(&camera);
                 let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-                let plan = painter.record(gpu, &mut scene, &camera, &capture.view, &mut encoder);
+                let plan = painter.record(gpu, &mut scene, &camera, capture.view(), &mut encoder);
                 log.plan = plan.to_string();
                 let mut picture = capture.take(gpu, encoder)?;
                 strokes::ink(&mut picture, &strokes, strokes::seen(&camera, size));

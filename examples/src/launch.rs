@@ -1,8 +1,7 @@
 //! A boat with its wake, and the course that its autopilot keeps.
 
-use glam::{Affine3A, DVec2, Vec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 use open_water::{BodyId, GridId, OpenWater, Pose};
-use water_view::DryHull;
 
 use crate::strokes::{Stroke, sketch};
 use crate::{Mark, Subject};
@@ -26,12 +25,6 @@ impl Launch {
     /// A boat.
     pub fn new(body: BodyId, wake: Option<GridId>, bounds: (Vec3, Vec3)) -> Self {
         Self { body, wake, far: None, bounds, cells: Default::default() }
-    }
-
-    /// Its hull at `pose`, in which no water shows.
-    pub fn dry(&self, pose: Pose) -> DryHull {
-        let world_from_hull = Affine3A::from_rotation_translation(pose.orientation, pose.position);
-        DryHull { world_from_hull, low: self.bounds.0, high: self.bounds.1 }
     }
 
     /// What a camera follows when it is at `pose`.

@@ -2,6 +2,7 @@
 //!
 //! A scene implements [`Scene`] and calls [`run`]; it simulates and says what to draw, nothing else.
 
+mod boat;
 mod camera;
 mod capture;
 mod device;
@@ -23,6 +24,8 @@ mod timing;
 mod topview;
 mod window;
 
+pub use boat::{boat_mesh, dry_room};
+pub use capture::Capture;
 pub use device::{Gpu, Pick};
 pub use dice::Dice;
 pub use error::SceneError;
@@ -34,7 +37,7 @@ pub use options::{Backend, Options, Quality, Setup};
 #[path = "../../benches/src/truth/wedge.rs"]
 pub mod wedge;
 
-pub use props::{barrel, boat_mesh, crate_box, hull_mesh};
+pub use props::{barrel, crate_box, hull_mesh};
 pub use scene::{Helm, Mark, NoMore, Scene, Subject, Viewpoint, run_up};
 pub use strokes::Stroke;
 

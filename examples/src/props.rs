@@ -1,17 +1,10 @@
-//! Meshes of boats, crates and barrels.
+//! Meshes of hulls, crates and barrels.
 
 use std::collections::HashMap;
 
 use glam::Vec3;
-use open_water::{Hull, TriMesh};
+use open_water::TriMesh;
 use water_view::{MeshData, MeshVertex};
-
-const PAINT: [u8; 4] = [232, 233, 228, 120];
-const KEEL: [u8; 4] = [120, 30, 24, 60];
-const DECK: [u8; 4] = [158, 132, 100, 20];
-const TRIM: [u8; 4] = [34, 62, 104, 150];
-const GLASS: [u8; 4] = [60, 76, 84, 255];
-const RUBBER: [u8; 4] = [52, 52, 54, 90];
 
 /// Triangles that meet below this angle shade as one smooth surface (cosine).
 const CREASE: f32 = 0.8;
@@ -81,42 +74,6 @@ pub fn hull_mesh(mesh: &TriMesh, levels: &[f32], paint: impl Fn(Vec3, Vec3) -> [
     data
 }
 
-/// The boat: its hull painted, keel below `waterline` (height in the hull's frame), and with `fittings` a console, a
-/// windscreen, a bench and an outboard engine in proportion to the hull.
-pub fn boat_mesh(hull: &Hull, waterline: f32, fittings: bool) -> MeshData {
-    let (low, high) = hull.bounds();
-    let (length, beam) = (high.x - low.x, high.z - low.z);
-    let none = TriMesh::default();
-    let keel = waterline + 0.015 * length;
-    let trim = keel + 0.02 * length;
-    let mut data = hull_mesh(hull.mesh().unwrap_or(&none), &[keel, trim], |at, normal| {
-        if normal.y > 0.8 && at.y > waterline {
-            DECK
-        } else if at.y < keel {
-            KEEL
-        } else if at.y < trim {
-            TRIM
-        } else {
-            PAINT
-        }
-    });
-    if !fittings {
-        return data;
-    }
-    let middle = 0.5 * (low.z + high.z);
-    let deck = waterline + 0.75 * (high.y - waterline);
-    let at = |x: f32, y: f32, z: f32| Vec3::new(low.x + x * length, deck + y * beam, middle + z * beam);
-    let half = |x: f32, y: f32, z: f32| Vec3::new(x * length, y * beam, z * beam);
-    data.cuboid(at(0.45, 0.16, 0.0), half(0.05, 0.16, 0.17), PAINT);
-    data.cuboid(at(0.43, 0.335, 0.0), half(0.055, 0.012, 0.18), DECK);
-    data.cuboid(at(0.505, 0.4, 0.0), half(0.006, 0.09, 0.17), GLASS);
-    data.cuboid(at(0.29, 0.1, 0.0), half(0.035, 0.1, 0.2), TRIM);
-    data.cuboid(at(0.26, 0.24, 0.0), half(0.008, 0.09, 0.2), TRIM);
-    data.cuboid(at(-0.015, 0.14, 0.0), half(0.03, 0.13, 0.08), RUBBER);
-    data.cuboid(at(-0.02, -0.12, 0.0), half(0.012, 0.2, 0.03), RUBBER);
-    data
-}
-
 /// A crate of this size, metres, with battens.
 pub fn crate_box(size: Vec3) -> MeshData {
     let mut data = MeshData::default();
@@ -145,6 +102,8 @@ pub fn barrel(radius: f32, length: f32) -> MeshData {
 
 #[cfg(test)]
 mod tests {
+    use open_water::Hull;
+
     use super::*;
 
     #[test]

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec2, Vec3};
 use open_water::{OpenWater, OpenWaterDesc, Pose, Tick};
-use water_view::{Camera, DryHull, MeshView, WaterLook};
+use water_view::{Camera, MeshView, WaterLook};
 
 use crate::SceneError;
 use crate::options::{Options, Setup};
@@ -133,9 +133,6 @@ pub trait Scene: Sized + 'static {
 
     /// Says where they stand at the drawn moment.
     fn place(&mut self, queue: &wgpu::Queue, meshes: &mut MeshView);
-
-    /// Hulls in which no water shows, at the drawn moment.
-    fn dry(&self) -> [Option<DryHull>; 4];
 
     /// Colour of the water.
     fn look(&self) -> WaterLook {

@@ -1,8 +1,8 @@
 //! The composite surface: the bind group that the renderer and a game's own shaders read, and the WGSL that reads it.
 //!
 //! `surface_at` answers what the water is at a world point, exactly (cubic kernel, f32); `surface_vertex` and
-//! `surface_shading` answer for a rest point from filtered half-float mips, for looks. `bed_at`, `water_depth`,
-//! `water_open` and `wall_nearness` tell the land at a world point.
+//! `surface_shading` answer for a rest point from filtered half-float mips, for looks. [`wgsl`] explains all that a game's
+//! shader may call.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -12,6 +12,8 @@ use crate::{Pass, param_layout};
 pub const MAX_CASCADES: usize = 8;
 /// Most interactive grids that are drawn at once.
 pub const MAX_GRIDS: usize = 32;
+/// Most hulls that are kept dry at once.
+pub const MAX_DRY: usize = 16;
 /// See [`SurfaceTable::hidden_slope`].
 pub const HIDDEN_SLOPE_BIAS: u32 = 6;
 /// Most rounds of Newton's method that invert the horizontal displacement, after two rough ones of
@@ -76,6 +78,26 @@ pub struct SurfaceLand {
     pub pad: f32,
 }
 
+/// A hull that is kept dry, as `surface_is_dry` sees it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct SurfaceDry {
+    /// Local position of the hull's origin, metres.
+    pub place: [f32; 3],
+    /// First element in the pool; a node has two: (lower, upper side), (distance inside the edge of the plan, 0), metres.
+    pub base: u32,
+    /// Row that takes a local point, less `place`, to nodes along the hull's x.
+    pub x: [f32; 4],
+    /// Likewise to metres along its y.
+    pub y: [f32; 4],
+    /// Likewise to nodes along its z.
+    pub z: [f32; 4],
+    /// Nodes along x and z, from 2.
+    pub nodes: [u32; 2],
+    /// Padding.
+    pub pad: [u32; 2],
+}
+
 /// The table at binding 0 of the composite bind group.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
@@ -97,6 +119,16 @@ pub struct SurfaceTable {
     pub grids: [SurfaceGrid; MAX_GRIDS],
     /// Land and water level.
     pub land: SurfaceLand,
+    /// Lowest corner (x, z) of the rectangle around all dry hulls, local metres.
+    pub dry_low: [f32; 2],
+    /// Highest corner.
+    pub dry_high: [f32; 2],
+    /// Number of dry hulls in use.
+    pub dry_count: u32,
+    /// Padding.
+    pub pad: [u32; 3],
+    /// Dry hulls.
+    pub dry: [SurfaceDry; MAX_DRY],
 }
 
 impl Default for SurfaceTable {
@@ -117,15 +149,20 @@ pub const PARAMS: &[crate::ParamLayout] = &[
         hidden_slope,
         cascades,
         grids,
-        land
+        land,
+        dry_low,
+        dry_high,
+        dry_count,
+        dry
     }),
     param_layout!(SurfaceLand { corner, texel, present, size, level }),
+    param_layout!(SurfaceDry { place, base, x, y, z, nodes }),
 ];
 
 /// Constants that WGSL shares, and the group index of the composite bind group.
 pub fn constants(group: u32) -> String {
     format!(
-        "override SURFACE_LAND: bool = true;\nconst MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst CHOP_ROUNDS: u32 = {CHOP_ROUNDS}u;\n\
+        "override SURFACE_LAND: bool = true;\nconst MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst MAX_DRY: u32 = {MAX_DRY}u;\nconst CHOP_ROUNDS: u32 = {CHOP_ROUNDS}u;\n\
          const CHOP_LAST_STEP: f32 = {CHOP_LAST_STEP};\nconst CHOP_LEAST_STEP: f32 = {CHOP_LEAST_STEP};\nconst CHOP_LEAST_SLOPE: f32 = {CHOP_LEAST_SLOPE};\nconst HIDDEN_SLOPE_BIAS: f32 = {HIDDEN_SLOPE_BIAS}.0;\n\
          @group({group}) @binding(0) var<uniform> surface_table: SurfaceTable;\n\
          @group({group}) @binding(1) var surface_displacement: texture_2d_array<f32>;\n\
@@ -138,10 +175,8 @@ pub fn constants(group: u32) -> String {
     )
 }
 
-/// WGSL text of the composite surface, its bind group at index `group`: put it in front of your own shader.
-///
-/// A pipeline with the override constant `SURFACE_LAND` set to 0 leaves the land out (not the water level): for waters
-/// without any, on adapters that run both sides of a branch, as software does. Others need not care.
+#[doc = include_str!("../docs/surface.md")]
+#[doc = concat!("```wgsl\n", include_str!("../docs/plane.wgsl"), "```")]
 pub fn wgsl(group: u32) -> String {
     format!("{}\n{}", constants(group), TEXT)
 }
@@ -174,6 +209,7 @@ pub const TEXT: &str = concat!(
     include_str!("../wgsl/shared/land_factors.wgsl"),
     include_str!("../wgsl/shared/sea_read.wgsl"),
     include_str!("../wgsl/shared/surface_at.wgsl"),
+    include_str!("../wgsl/shared/surface_dry.wgsl"),
     include_str!("../wgsl/shared/looks_grid.wgsl"),
     include_str!("../wgsl/shared/looks_detail.wgsl"),
     include_str!("../wgsl/shared/looks_hidden.wgsl"),

@@ -17,21 +17,6 @@ pub const LEAST_OPEN: f32 = 0.02;
 /// Depth over which the water's edge fades in, metres.
 pub const SHORE_EDGE: f32 = 0.05;
 
-/// Most hulls that are kept dry in a view.
-pub const MAX_CUTOUTS: usize = 4;
-
-/// A hull whose inside shows no water.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct Cutout {
-    /// First row of the transform from local space to the hull's box, -1 at its stern and 1 at its bow.
-    pub x: [f32; 4],
-    /// Second row, -1 at its keel and 1 at its top.
-    pub y: [f32; 4],
-    /// Third row, -1 and 1 at its sides.
-    pub z: [f32; 4],
-}
-
 /// The uniform block at group 0, binding 0 of every view pass. Fields are explained in `wgsl/shared/view.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
@@ -98,19 +83,13 @@ pub struct ViewFrame {
     pub closed: u32,
     /// Wave height that the water's colour is scaled by, metres.
     pub wave_height: f32,
-    /// How many of `cutouts` are in use.
-    pub cutout_count: u32,
     /// Level of still water, metres.
     pub level: f32,
     /// How much foam shores and walls make, 1 as calibrated.
     pub surf: f32,
     /// Padding.
-    pub pad: [f32; 2],
-    /// Hulls to keep dry.
-    pub cutouts: [Cutout; MAX_CUTOUTS],
+    pub pad: [f32; 3],
 }
-
-const CUTOUT: crate::ParamLayout = param_layout!(Cutout { x, y, z });
 
 const FRAME: crate::ParamLayout = param_layout!(ViewFrame {
     clip_from_world,
@@ -144,14 +123,12 @@ const FRAME: crate::ParamLayout = param_layout!(ViewFrame {
     columns,
     closed,
     wave_height,
-    cutout_count,
     level,
-    surf,
-    cutouts
+    surf
 });
 
 /// Layouts shared with WGSL.
-pub const PARAMS: &[crate::ParamLayout] = &[CUTOUT, FRAME];
+pub const PARAMS: &[crate::ParamLayout] = &[FRAME];
 
 const VIEW_TEXT: &str = concat!(include_str!("../wgsl/shared/view.wgsl"), include_str!("../wgsl/shared/display.wgsl"));
 const SKY_TEXT: &str = include_str!("../wgsl/shared/sky.wgsl");
@@ -159,17 +136,12 @@ const LIGHT_TEXT: &str = include_str!("../wgsl/shared/water_light.wgsl");
 const SHORE_TEXT: &str = include_str!("../wgsl/shared/shore.wgsl");
 const FRESNEL_TEXT: &str = include_str!("../wgsl/shared/fresnel.wgsl");
 
-fn view_constants() -> String {
-    format!("const MAX_CUTOUTS: u32 = {MAX_CUTOUTS}u;\n")
-}
-
 fn water_constants() -> String {
-    view_constants()
-        + &format!(
-            "const GRID_FILTER: f32 = {GRID_FILTER:?};\nconst PIXEL_STRETCH: f32 = {PIXEL_STRETCH:?};\n\
+    format!(
+        "const GRID_FILTER: f32 = {GRID_FILTER:?};\nconst PIXEL_STRETCH: f32 = {PIXEL_STRETCH:?};\n\
              const LEAST_OPEN: f32 = {LEAST_OPEN:?};\nconst SHORE_EDGE: f32 = {SHORE_EDGE:?};\n{}",
-            surface::constants(SURFACE_GROUP)
-        )
+        surface::constants(SURFACE_GROUP)
+    )
 }
 
 /// The sea.
@@ -186,13 +158,20 @@ pub const WATER: Pass = Pass {
         include_str!("../wgsl/view_water.wgsl"),
     ],
     entry_points: &["water_vertex", "water_fragment"],
-    params: &[CUTOUT, FRAME, surface::PARAMS[0], surface::PARAMS[1], surface::PARAMS[2], surface::PARAMS[3]],
+    params: &[
+        FRAME,
+        surface::PARAMS[0],
+        surface::PARAMS[1],
+        surface::PARAMS[2],
+        surface::PARAMS[3],
+        surface::PARAMS[4],
+    ],
 };
 
 /// The sky.
 pub const SKY: Pass = Pass {
     name: "view_sky",
-    constants: view_constants,
+    constants: crate::no_constants,
     parts: &[VIEW_TEXT, SKY_TEXT, include_str!("../wgsl/view_sky.wgsl")],
     entry_points: &["sky_vertex", "sky_fragment"],
     params: PARAMS,
@@ -201,7 +180,7 @@ pub const SKY: Pass = Pass {
 /// Lit meshes.
 pub const MESH: Pass = Pass {
     name: "view_mesh",
-    constants: view_constants,
+    constants: crate::no_constants,
     parts: &[VIEW_TEXT, SKY_TEXT, FRESNEL_TEXT, include_str!("../wgsl/view_mesh.wgsl")],
     entry_points: &["mesh_vertex", "mesh_fragment"],
     params: PARAMS,

@@ -30,21 +30,6 @@ fn water_vertex(@builtin(vertex_index) index: u32) -> WaterVertex {
     return WaterVertex(clip, world, rest);
 }
 
-// Whether a point is inside a hull, or on its deck: the plan tapers from amidships to the bow and the sides to the keel,
-// a little narrower than a boat's, so that no hole opens beside it.
-fn inside_hull(point: vec3<f32>) -> bool {
-    let p = vec4<f32>(point, 1.0);
-    for (var i = 0u; i < view.cutout_count; i++) {
-        let q = vec3<f32>(dot(view.cutouts[i].x, p), dot(view.cutouts[i].y, p), dot(view.cutouts[i].z, p));
-        let taper = max(q.x, 0.0);
-        let beam = (1.0 - taper * taper) * mix(0.65, 0.93, clamp((q.y + 0.5) / 0.9, 0.0, 1.0));
-        if abs(q.x) < 0.96 && q.y > -1.0 && q.y < 2.0 && abs(q.z) < beam {
-            return true;
-        }
-    }
-    return false;
-}
-
 @fragment
 fn water_fragment(in: WaterVertex) -> @location(0) vec4<f32> {
     let dx = dpdx(in.rest);
@@ -61,7 +46,7 @@ fn water_fragment(in: WaterVertex) -> @location(0) vec4<f32> {
     let land = land_at(in.world.xz);
     let depth = in.world.y - land.x;
     let wave = in.world.y - view.level;
-    if depth <= 0.0 || land.y < LEAST_OPEN || inside_hull(in.world) {
+    if depth <= 0.0 || land.y < LEAST_OPEN || surface_is_dry(in.world) {
         discard;
     }
     let white = max(look.foam, shore_foam(wave, depth, land.z, look.normal));

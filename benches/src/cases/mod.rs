@@ -22,6 +22,7 @@ mod fleet_inertia;
 mod fleet_kernel;
 mod fleet_tick;
 mod fleet_water;
+mod frame_dry;
 mod frame_presets;
 mod frame_scene;
 mod frame_soak;
@@ -173,4 +174,5 @@ pub const CASES: &[Case] = &[
     frame_soak::SOAK,
     frame_presets::PRESETS,
     frame_presets::CHANGE,
+    frame_dry::DRY,
 ];

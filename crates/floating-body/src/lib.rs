@@ -55,7 +55,7 @@ pub use drag::Drag;
 pub use engine::{Controls, Engine};
 pub use error::BodyError;
 pub use fleet::{Activity, Fleet, FleetDesc, PieceId, SoftContact};
-pub use hull::{Clip, Clipper, Closure, Hull, HullKind, Push, TriMesh, Waterline};
+pub use hull::{Clip, Clipper, Closure, DryHull, Hull, HullKind, Push, TriMesh, Waterline};
 pub use mooring::MooringLine;
 pub use point::{ForcePoint, PointShape};
 pub use radiation::{Imprint, RadiationTable, RadiationTables, TextureKernel, Textures};

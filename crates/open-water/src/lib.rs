@@ -34,6 +34,7 @@ mod bodies;
 mod clock;
 mod cpu;
 mod desc;
+mod dry;
 mod error;
 mod fleets;
 mod follow;
@@ -72,8 +73,8 @@ pub use wakes::{Wake, WakesDesc};
 pub use water::{OpenWater, Reports};
 
 pub use floating_body::{
-    Activity, Body, BodyDesc, BodyState, Closure, Coefficients, Contact, Controls, Drag, Engine, Explanation, Fleet,
-    FleetDesc, ForcePoints, Hull, HullKind, Inertia, Load, LoadKind, MooringLine, PieceId, Quality, Radiation,
+    Activity, Body, BodyDesc, BodyState, Closure, Coefficients, Contact, Controls, Drag, DryHull, Engine, Explanation,
+    Fleet, FleetDesc, ForcePoints, Hull, HullKind, Inertia, Load, LoadKind, MooringLine, PieceId, Quality, Radiation,
     RadiationTable, RadiationTables, Sampling, Skin, Slamming, SoftContact, TriMesh, Windage, Wrench,
 };
 pub use ocean_spectrum::{

@@ -5,6 +5,7 @@
 use std::fmt;
 
 use crate::GridId;
+use crate::dry::DryPlan;
 use crate::land::ShoreMark;
 
 /// A piece of GPU work of a frame.
@@ -107,6 +108,7 @@ pub struct FramePlan {
     pub skipped: Vec<Skipped>,
     pub(crate) dispatches: u32,
     pub(crate) shore: ShoreMark,
+    pub(crate) dry: DryPlan,
 }
 
 impl FramePlan {
@@ -133,6 +135,11 @@ impl fmt::Display for FramePlan {
                 Work::GridDraw { grids } => write!(f, "\n+ grids drawn, {grids}")?,
                 Work::Table => {}
             }
+        }
+        match (self.dry.bodies.len(), self.dry.of) {
+            (0, _) => {}
+            (drawn, of) if drawn < of => write!(f, "\n+ dry hulls, the nearest {drawn} of {of}")?,
+            (drawn, _) => write!(f, "\n+ dry hulls, {drawn}")?,
         }
         for Skipped { work, reason } in &self.skipped {
             match work {

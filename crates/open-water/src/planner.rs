@@ -1,6 +1,7 @@
 //! Decides what a frame runs: one rule after the other, each leaving its reason.
 
 use crate::desc::{Consumers, View};
+use crate::dry::DryMark;
 use crate::grids::{Grid, Sim};
 use crate::land::ShoreMark;
 use crate::plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
@@ -17,6 +18,8 @@ pub(crate) struct Shown {
     pub(crate) listed: usize,
     /// Land and level in the table.
     pub(crate) shore: ShoreMark,
+    /// Dry hulls in the table.
+    pub(crate) dry: DryMark,
 }
 
 /// What the planner must know of the GPU.
@@ -51,10 +54,16 @@ impl OpenWater {
         #[cfg(feature = "gpu")]
         self.plan_remote(&mut plan);
         plan.shore = self.shore.mark();
+        if facts.present && !nobody {
+            plan.dry = self.dry.plan(views, |id| self.drawn_pose(id));
+        }
         let awake = self.grids.iter().filter(|grid| grid.is_awake()).count();
         if facts.present
             && !nobody
-            && (!plan.work.is_empty() || awake != facts.shown.listed || plan.shore != facts.shown.shore)
+            && (!plan.work.is_empty()
+                || awake != facts.shown.listed
+                || plan.shore != facts.shown.shore
+                || plan.dry.differs(facts.shown.dry, &plan))
         {
             plan.work.insert(0, Work::Table);
         }

@@ -9,6 +9,7 @@ use crate::bodies::{Bodies, Pose, Reads};
 use crate::clock::{Clock, Tick, Ticks};
 use crate::cpu::surface::{Composite, WaterSample};
 use crate::desc::{OpenWaterDesc, check_wind};
+use crate::dry::DryHulls;
 use crate::fleets::Fleets;
 use crate::follow::Look;
 use crate::grids::Grids;
@@ -54,6 +55,7 @@ pub struct OpenWater {
     /// How the game said last that it looks at the water.
     pub(crate) looking: Option<Look>,
     pub(crate) wakes: Wakes,
+    pub(crate) dry: DryHulls,
     #[cfg(feature = "gpu")]
     pub(crate) gpu: Option<crate::gpu::Gpu>,
 }
@@ -80,6 +82,7 @@ impl OpenWater {
             shore: Shore::default(),
             looking: None,
             wakes: Wakes::default(),
+            dry: DryHulls::default(),
             desc,
             #[cfg(feature = "gpu")]
             gpu: None,
@@ -117,6 +120,7 @@ impl OpenWater {
     pub fn remove_body(&mut self, id: BodyId) -> Result<(), OpenWaterError> {
         self.bodies.remove(id)?;
         self.moorings.forget(id);
+        self.dry.forget(id);
         Ok(())
     }
 

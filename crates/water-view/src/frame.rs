@@ -1,7 +1,7 @@
 //! What a host says of a frame, and the uniform block made of it.
 
-use glam::{Affine3A, Vec3};
-use open_water_shaders::view::{Cutout, MAX_CUTOUTS, ViewFrame};
+use glam::Vec3;
+use open_water_shaders::view::ViewFrame;
 
 use crate::camera::{Rays, View};
 use crate::desc::{Output, ViewDesc};
@@ -69,8 +69,6 @@ pub struct ViewParams {
     pub sky: Sky,
     /// Colour of the water.
     pub water: WaterLook,
-    /// Hulls in which no water shows.
-    pub dry: [Option<DryHull>; MAX_CUTOUTS],
     /// Significant height of all waves together, metres: the grid must know how far they may reach.
     pub wave_height: f32,
     /// Level of still water, metres: what the composite surface has.
@@ -80,43 +78,7 @@ pub struct ViewParams {
 impl ViewParams {
     /// A camera over two-metre waves under the default sky, still water at 0.
     pub fn new(view: View) -> Self {
-        Self {
-            view,
-            sky: Sky::default(),
-            water: WaterLook::default(),
-            dry: [None; MAX_CUTOUTS],
-            wave_height: 2.0,
-            level: 0.0,
-        }
-    }
-}
-
-/// A boat in which no water shows, though the sea would stand higher than its deck: waves do not know of decks. The plan
-/// tapers from amidships to the bow.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DryHull {
-    /// From the hull's frame (x forward, y up) to local space; a rotation and a translation.
-    pub world_from_hull: Affine3A,
-    /// Lowest corner of its bounding box, hull frame, metres.
-    pub low: Vec3,
-    /// Highest corner.
-    pub high: Vec3,
-}
-
-impl DryHull {
-    /// `None` for a box without volume or a transform that is not finite.
-    fn cutout(&self) -> Option<Cutout> {
-        let half = 0.5 * (self.high - self.low);
-        let box_from_hull =
-            Affine3A::from_scale(half.recip()) * Affine3A::from_translation(-0.5 * (self.low + self.high));
-        let m = box_from_hull * self.world_from_hull.inverse();
-        let rows = m.matrix3.transpose();
-        let row = |axis: glam::Vec3A, shift: f32| Vec3::from(axis).extend(shift).into();
-        (half.min_element() > 0.0 && m.is_finite()).then(|| Cutout {
-            x: row(rows.x_axis, m.translation.x),
-            y: row(rows.y_axis, m.translation.y),
-            z: row(rows.z_axis, m.translation.z),
-        })
+        Self { view, sky: Sky::default(), water: WaterLook::default(), wave_height: 2.0, level: 0.0 }
     }
 }
 
@@ -165,10 +127,6 @@ pub(crate) fn build(desc: &ViewDesc, output: Output, params: &ViewParams, light:
         surf: finite(params.water.surf, 0.0, 4.0),
         ..ViewFrame::default()
     };
-    for (slot, cutout) in frame.cutouts.iter_mut().zip(params.dry.iter().flatten().filter_map(DryHull::cutout)) {
-        *slot = cutout;
-        frame.cutout_count += 1;
-    }
     if let Some(grid) = grid {
         frame.pole = grid.pole.into();
         frame.far = grid.far;
@@ -180,26 +138,4 @@ pub(crate) fn build(desc: &ViewDesc, output: Output, params: &ViewParams, light:
         frame.closed = u32::from(grid.closed);
     }
     Some((frame, grid.is_some()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hull_becomes_the_unit_box() {
-        let world_from_hull = Affine3A::from_rotation_y(0.7) * Affine3A::from_translation(Vec3::new(3.0, 1.0, -2.0));
-        let (low, high) = (Vec3::new(-4.0, -0.5, -1.2), Vec3::new(4.2, 0.9, 1.2));
-        let hull = DryHull { world_from_hull, low, high };
-        let cutout = hull.cutout().unwrap();
-        for (corner, expected) in [(low, -1.0), (high, 1.0)] {
-            let p = world_from_hull.transform_point3(corner).extend(1.0);
-            for row in [cutout.x, cutout.y, cutout.z] {
-                assert!((glam::Vec4::from(row).dot(p) - expected).abs() < 1e-5);
-            }
-        }
-        assert!(DryHull { high: low, ..hull }.cutout().is_none());
-        let world_from_hull = Affine3A::from_translation(Vec3::NAN);
-        assert!(DryHull { world_from_hull, ..hull }.cutout().is_none());
-    }
 }

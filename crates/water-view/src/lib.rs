@@ -31,6 +31,6 @@ mod water;
 
 pub use camera::{Camera, View};
 pub use desc::{ViewDesc, ViewError};
-pub use frame::{DryHull, Sky, ViewParams, WaterLook};
+pub use frame::{Sky, ViewParams, WaterLook};
 pub use mesh::{Instance, MeshData, MeshId, MeshVertex, MeshView};
 pub use water::WaterView;

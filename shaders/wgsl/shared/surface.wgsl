@@ -22,6 +22,17 @@ struct SurfaceLand {
     pad: f32,
 }
 
+// A hull that is kept dry. The rows take a point, less `place`, into its raster: nodes along x and z, metres along y.
+struct SurfaceDry {
+    place: vec3<f32>,
+    base: u32,
+    x: vec4<f32>,
+    y: vec4<f32>,
+    z: vec4<f32>,
+    nodes: vec2<u32>,
+    pad: vec2<u32>,
+}
+
 struct SurfaceTable {
     cascade_count: u32,
     grid_count: u32,
@@ -31,6 +42,13 @@ struct SurfaceTable {
     cascades: array<SurfaceCascade, MAX_CASCADES>,
     grids: array<SurfaceGrid, MAX_GRIDS>,
     land: SurfaceLand,
+    dry_low: vec2<f32>,
+    dry_high: vec2<f32>,
+    dry_count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    dry: array<SurfaceDry, MAX_DRY>,
 }
 
 // Where a grid is read for a world point: cells from the first cell's centre, and how much of it counts there.

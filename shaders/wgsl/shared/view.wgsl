@@ -1,10 +1,3 @@
-// A hull whose inside shows no water: rows of the transform into its box, which is -1 to 1 on each axis, x forward.
-struct Cutout {
-    x: vec4<f32>,
-    y: vec4<f32>,
-    z: vec4<f32>,
-}
-
 // What every pass of the view reads: camera, light, air, water, the projected grid. Same fields as ViewFrame in Rust.
 struct ViewFrame {
     clip_from_world: mat4x4<f32>,
@@ -62,13 +55,13 @@ struct ViewFrame {
     closed: u32,
     // Wave height that the water's colour is scaled by, metres.
     wave_height: f32,
-    cutout_count: u32,
     // Level of still water, metres.
     level: f32,
     // How much foam shores and walls make.
     surf: f32,
-    pad: vec2<f32>,
-    cutouts: array<Cutout, MAX_CUTOUTS>,
+    pad0: f32,
+    pad1: f32,
+    pad2: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: ViewFrame;

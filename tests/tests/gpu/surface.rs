@@ -1,6 +1,8 @@
 //! The façade on a device: the composite surface against its CPU twin, and what a frame runs.
 
+mod dry;
 mod fade;
+mod include;
 mod land;
 
 use glam::{DVec2, Vec2, Vec3};

@@ -1,7 +1,7 @@
 //! Pictures of the renderer, judged by what must be true of any picture of a sea; no stored images.
 
 use glam::{Affine3A, Vec3};
-use water_view::{DryHull, Instance, MeshData, MeshView, ViewDesc, ViewParams, WaterView};
+use water_view::{Instance, MeshData, MeshView, ViewDesc, ViewParams, WaterView};
 
 use crate::context::Context;
 use crate::view_stage::{Draw, Picture, Sea, Stage, camera, frame, frame_with, render, shifted};
@@ -190,31 +190,6 @@ fn meshes_stand_in_the_water() {
     };
     assert!(red(0.8) && red(0.1), "the part above the water shows");
     assert!(!red(-0.2) && !red(-0.8), "the part below is under water");
-}
-
-#[test]
-fn no_water_shows_inside_a_dry_hull() {
-    let context = Context::new();
-    let sea = Sea::flat();
-    let stage = Stage::new(&context, &sea);
-    let mut look = params(Vec3::new(0.0, 12.0, 0.0), 0.0, -1.4, &sea);
-    let world_from_hull = Affine3A::from_rotation_y(0.5);
-    let hull = DryHull { world_from_hull, low: Vec3::new(-3.0, -1.0, -1.0), high: Vec3::new(3.0, 1.0, 1.0) };
-    look.dry[2] = Some(hull);
-    let picture = render(&context, &stage, &desc(), &look, SIZE, Draw::WaterOnly);
-    let clip_from_world = look.view.clip_from_view * look.view.view_from_world;
-    let shows = |x: f32, z: f32| {
-        let world = world_from_hull.transform_point3(Vec3::new(x, 0.0, z)).with_y(0.0);
-        let clip = clip_from_world.project_point3(world);
-        let pixel = glam::Vec2::new(0.5 + 0.5 * clip.x, 0.5 - 0.5 * clip.y) * glam::Vec2::new(320.0, 180.0);
-        drawn(&picture, pixel.x as u32, pixel.y as u32)
-    };
-    for (x, z) in [(0.0, 0.0), (-2.7, 0.7), (-2.7, -0.7), (1.0, 0.6), (2.7, 0.0)] {
-        assert!(!shows(x, z), "water inside at {x}, {z}");
-    }
-    for (x, z) in [(0.0, 1.1), (0.0, -1.1), (2.8, 0.5), (2.8, -0.5), (-3.1, 0.0), (3.1, 0.0)] {
-        assert!(shows(x, z), "no water outside at {x}, {z}");
-    }
 }
 
 #[test]

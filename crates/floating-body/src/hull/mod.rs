@@ -6,6 +6,8 @@
 pub(crate) mod clip;
 mod columns;
 mod convex;
+mod dry;
+mod lid;
 mod quadrature;
 pub(crate) mod shapes;
 mod solid;
@@ -18,6 +20,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::{DVec3, Mat3, Vec3};
 
 pub use self::clip::{Clip, Clipper, Push};
+pub use self::dry::DryHull;
 use self::shapes::Shape;
 use self::solid::Solid;
 use self::spans::Span;

@@ -66,7 +66,7 @@ impl Shape {
     }
 
     /// Half the vertical chord at (x, z).
-    fn half_height(&self, at: DVec2) -> f64 {
+    pub(crate) fn half_height(&self, at: DVec2) -> f64 {
         match *self {
             Self::Cuboid { half } => half.y,
             Self::Sphere { radius } => (radius * radius - at.length_squared()).max(0.0).sqrt(),

@@ -82,44 +82,55 @@ pub(crate) fn spans_by(
     spans
 }
 
-fn ray_position(low: DVec3, cell: DVec2, ray: [usize; 2]) -> DVec2 {
+/// Where a ray stands.
+pub(crate) fn ray_position(low: DVec3, cell: DVec2, ray: [usize; 2]) -> DVec2 {
     DVec2::new(low.x + (ray[0] as f64 + 0.5) * cell.x, low.z + (ray[1] as f64 + 0.5) * cell.y)
 }
 
 /// Spans of a closed surface, by rasterising its triangles from above.
 pub(crate) fn spans_of(surface: &Surface, low: DVec3, high: DVec3, volume: f64) -> Vec<Span> {
-    // Per ray: height and +1 where an upward ray enters the solid, -1 where it leaves.
-    let mut hits: Vec<Vec<(f64, i32)>> = vec![Vec::new(); RAYS[0] * RAYS[1]];
-    let cell = DVec2::new((high.x - low.x) / RAYS[0] as f64, (high.z - low.z) / RAYS[1] as f64);
+    let mut hits = hits_of(surface, low, high, RAYS);
+    spans_by(low, high, volume, |ray, _, found| stretches(&mut hits[ray[1] * RAYS[0] + ray[0]], found))
+}
+
+/// What an upward ray meets: heights, with +1 where it enters the solid and -1 where it leaves.
+pub(crate) type Hits = Vec<(f64, i32)>;
+
+/// The hits of `rays` rays along x and z in the middles of as many cells of a box, row by row.
+pub(crate) fn hits_of(surface: &Surface, low: DVec3, high: DVec3, rays: [usize; 2]) -> Vec<Hits> {
+    let mut hits = vec![Hits::new(); rays[0] * rays[1]];
+    let cell = DVec2::new((high.x - low.x) / rays[0] as f64, (high.z - low.z) / rays[1] as f64);
     let index = |x: f64, count: usize| (x.max(0.0) as usize).min(count);
     for t in &surface.triangles {
         let p = t.map(|i| surface.vertices[i as usize]);
         let (a, b) = (p[0].min(p[1]).min(p[2]) - low, p[0].max(p[1]).max(p[2]) - low);
-        for j in index(a.z / cell.y - 0.5, RAYS[1])..index(b.z / cell.y + 1.5, RAYS[1]) {
-            for i in index(a.x / cell.x - 0.5, RAYS[0])..index(b.x / cell.x + 1.5, RAYS[0]) {
+        for j in index(a.z / cell.y - 0.5, rays[1])..index(b.z / cell.y + 1.5, rays[1]) {
+            for i in index(a.x / cell.x - 0.5, rays[0])..index(b.x / cell.x + 1.5, rays[0]) {
                 if let Some(hit) = crossing(*t, p, ray_position(low, cell, [i, j])) {
-                    hits[j * RAYS[0] + i].push(hit);
+                    hits[j * rays[0] + i].push(hit);
                 }
             }
         }
     }
-    spans_by(low, high, volume, |ray, _, found| {
-        let list = &mut hits[ray[1] * RAYS[0] + ray[0]];
-        list.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let (mut depth, mut bottom) = (0, 0.0);
-        for (y, step) in list.iter() {
-            if depth == 0 {
-                bottom = *y;
-            }
-            depth += step;
-            if depth == 0 {
-                found.push((bottom, *y));
-            }
+    hits
+}
+
+/// Where a ray with these hits is in the solid: from, to. None where the hits do not add up.
+pub(crate) fn stretches(hits: &mut Hits, found: &mut Vec<(f64, f64)>) {
+    hits.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut depth, mut bottom) = (0, 0.0);
+    for (y, step) in hits.iter() {
+        if depth == 0 {
+            bottom = *y;
         }
-        if depth != 0 {
-            found.clear();
+        depth += step;
+        if depth == 0 {
+            found.push((bottom, *y));
         }
-    })
+    }
+    if depth != 0 {
+        found.clear();
+    }
 }
 
 /// Where a vertical ray meets a triangle. A ray on an edge belongs to exactly one of the two triangles there, because

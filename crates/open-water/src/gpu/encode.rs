@@ -84,6 +84,7 @@ impl Gpu {
                 Work::Table => {
                     self.shown.listed = grids.iter().filter(|grid| grid.is_awake()).count();
                     self.shown.shore = plan.shore;
+                    self.shown.dry = plan.dry.mark(plan.tick, plan.alpha);
                     let size = self.ocean.as_ref().map_or(1, GpuOcean::size);
                     self.surface.write_table(frame, plan.time, ocean, grids.iter(), plan.shore.level, size);
                 }

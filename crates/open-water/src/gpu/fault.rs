@@ -96,6 +96,7 @@ impl OpenWater {
         gpu.resize_pool(self.grids.pool_cells())?;
         let terrain = self.shore.terrain.as_ref();
         gpu.set_land(terrain.map(|terrain| self.shore.baked.texels(terrain.bed())).as_ref())?;
+        gpu.set_dry(self.dry.rasters())?;
         let mut remotes = remotes.into_iter();
         for grid in self.grids.iter_mut() {
             if let Sim::Gpu(old) = &mut grid.sim

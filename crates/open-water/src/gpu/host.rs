@@ -28,6 +28,11 @@ impl OpenWater {
     /// [`Reports::behind`]: crate::Reports::behind
     pub fn encode(&mut self, plan: &FramePlan, encoder: &mut wgpu::CommandEncoder) {
         if let Some(gpu) = &mut self.gpu
+            && plan.work.contains(&crate::Work::Table)
+        {
+            gpu.place_dry(plan, &self.dry, &self.bodies);
+        }
+        if let Some(gpu) = &mut self.gpu
             && !gpu.lost
             && !gpu.encode(plan, self.ocean.as_ref(), &mut self.grids, encoder)
         {
@@ -35,9 +40,9 @@ impl OpenWater {
         }
     }
 
-    /// The bind group of the composite surface, for the shader text of
-    /// [`open_water_shaders::surface::wgsl`]. Ask for it each frame: it changes when grids come and go. `None` without
-    /// a device.
+    /// The bind group of the composite surface, for the shader text of [`open_water_shaders::surface::wgsl`], which says what
+    /// a shader of one's own may call. Ask for it each frame, after [`Self::encode`]: it changes when grids, land and dry hulls
+    /// come and go. One serves all views. `None` without a device.
     pub fn surface_bind_group(&self) -> Option<&wgpu::BindGroup> {
         self.gpu.as_ref().map(|gpu| gpu.surface().group())
     }

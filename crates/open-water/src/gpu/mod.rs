@@ -2,6 +2,7 @@
 //!
 //! Everything that runs on the GPU is decided by [`FramePlan`](crate::FramePlan) and recorded by `encode.rs`.
 
+mod dry;
 mod encode;
 mod fault;
 pub(crate) mod grids;
@@ -12,13 +13,18 @@ mod mirror;
 mod sea;
 mod surface;
 
+use floating_body::DryHull;
 use ocean_spectrum::Ocean;
 use ocean_spectrum::gpu::GpuOcean;
 use open_water_shaders::pipeline::Staging;
 
 use crate::OpenWaterError;
+use crate::bodies::Bodies;
+use crate::dry::DryHulls;
 use crate::grids::{Grids, Sim};
+use crate::plan::FramePlan;
 use crate::planner::Shown;
+use crate::store::BodyId;
 pub use fault::DeviceLoss;
 use surface::SurfaceBinding;
 
@@ -38,6 +44,8 @@ pub(crate) struct Gpu {
     pub(crate) lost: bool,
     /// Cells that the pool has room for, and that it never has less.
     pool: [u32; 2],
+    /// Elements of it behind them, for the rasters of dry hulls.
+    dry: u32,
     /// Time of the last looks, seconds: foam fades by the difference.
     looks_time: f64,
     /// Drawn heights of one grid, before they are uploaded.
@@ -66,6 +74,7 @@ impl Gpu {
                 losses: 0,
                 lost: false,
                 pool: [0; 2],
+                dry: 0,
                 looks_time: 0.0,
                 scratch: Vec::new(),
             })
@@ -82,17 +91,23 @@ impl Gpu {
         }
         let [room, least] = self.pool;
         if cells > room || cells.max(least) < room / 4 {
-            let wanted = cells.max(least);
-            self.check_pool(wanted.into())?;
-            let made = self.guard("the drawn heights of the grids", |gpu| {
-                Ok(gpu.surface.make_pool(&gpu.device, gpu.ocean.as_ref(), wanted))
-            });
-            match made {
-                Ok(made) => self.surface.set_pool(made),
-                error => return fault::or_without(error.map(|_| ())),
-            }
-            self.pool[0] = wanted;
+            return self.make_pool(cells.max(least), self.dry);
         }
+        self.shown.grids = None;
+        Ok(())
+    }
+
+    /// A pool for so many cells of grids, then so many elements of the rasters of dry hulls.
+    fn make_pool(&mut self, cells: u32, dry: u32) -> Result<(), OpenWaterError> {
+        self.check_pool(u64::from(cells) + u64::from(dry))?;
+        let made = self.guard("the drawn heights of the grids", |gpu| {
+            Ok(gpu.surface.make_pool(&gpu.device, gpu.ocean.as_ref(), cells + dry))
+        });
+        match made {
+            Ok(made) => self.surface.set_pool(made),
+            error => return fault::or_without(error.map(|_| ())),
+        }
+        (self.pool[0], self.dry) = (cells, dry);
         self.shown.grids = None;
         Ok(())
     }
@@ -179,6 +194,28 @@ impl Gpu {
             self.remote.take_back(id);
         }
         added
+    }
+
+    /// Replaces the rasters of the hulls that are kept dry.
+    ///
+    /// # Errors
+    /// There is no room for them; then it is as it was.
+    pub(crate) fn set_dry(&mut self, rasters: &[DryHull]) -> Result<(), OpenWaterError> {
+        if self.lost {
+            return Ok(());
+        }
+        let needed = dry::elements(rasters);
+        if needed > self.dry {
+            self.make_pool(self.pool[0], needed.next_power_of_two())?;
+        }
+        self.surface.dry.set(rasters);
+        Ok(())
+    }
+
+    /// Says which hulls the next table has.
+    pub(crate) fn place_dry(&mut self, plan: &FramePlan, dry: &DryHulls, bodies: &Bodies) {
+        let place = |body: &BodyId| Some((dry.get(*body)?.raster, bodies.drawn(*body, plan.alpha)?));
+        self.surface.dry.place(plan.dry.bodies.iter().filter_map(place), self.pool[0]);
     }
 
     /// What the GPU holds: nothing that is known, once uploads were lost.

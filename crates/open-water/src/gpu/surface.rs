@@ -6,6 +6,7 @@ use ocean_spectrum::gpu::GpuOcean;
 use open_water_shaders::pipeline::{Frame, bind_group};
 use open_water_shaders::surface::{self, HIDDEN_SLOPE_BIAS, SurfaceCascade, SurfaceGrid, SurfaceLand, SurfaceTable};
 
+use super::dry::DryRoom;
 use super::land::{Land, LandTexels};
 use crate::OpenWaterError;
 use crate::grids::{Grid, REACH};
@@ -17,6 +18,7 @@ pub(crate) struct SurfaceBinding {
     layout: wgpu::BindGroupLayout,
     table: wgpu::Buffer,
     pool: wgpu::Buffer,
+    pub(super) dry: DryRoom,
     sampler: wgpu::Sampler,
     /// Stands in for the cascades of a calm sea, and for the land of the open sea.
     blank: wgpu::TextureView,
@@ -62,7 +64,7 @@ impl SurfaceBinding {
         let pool = pool(device, 1);
         let views = Views { ocean, land: None, blank: &blank };
         let group = group(device, &layout, &table, &pool, &sampler, views);
-        Self { layout, table, pool, sampler, blank, land: None, room: None, group }
+        Self { layout, table, pool, sampler, blank, land: None, room: None, dry: DryRoom::default(), group }
     }
 
     /// A pool of another size, and the group that has it.
@@ -80,6 +82,7 @@ impl SurfaceBinding {
 
     pub(crate) fn set_pool(&mut self, (pool, group): (wgpu::Buffer, wgpu::BindGroup)) {
         (self.pool, self.group) = (pool, group);
+        self.dry.lose();
     }
 
     /// Makes room for land of that size.
@@ -146,7 +149,7 @@ impl SurfaceBinding {
 
     /// `size` is that of the cascades' layers, texels per side.
     pub(crate) fn write_table<'a>(
-        &self,
+        &mut self,
         frame: &mut Frame<'_>,
         time: f64,
         ocean: Option<&Ocean>,
@@ -182,6 +185,8 @@ impl SurfaceBinding {
         }
         let land = self.land.as_ref().map(|land| land.entry(DVec2::ZERO));
         table.land = SurfaceLand { level, ..land.unwrap_or_default() };
+        self.dry.write(frame, &self.pool);
+        self.dry.tell(&mut table);
         frame.write(&self.table, 0, bytemuck::bytes_of(&table));
     }
 }
