@@ -76,13 +76,13 @@ impl DryHulls {
     }
 
     /// The bodies whose hulls are nearest to any of the views; the first ones without a view.
-    pub(crate) fn plan(&self, views: &[View], pose: impl Fn(BodyId) -> Option<Pose>) -> DryPlan {
+    pub(crate) fn plan(&self, views: &[View], place: impl Fn(BodyId) -> Option<Vec3>) -> DryPlan {
         let mut near = ArrayVec::<(f32, BodyId), MAX_DRY>::new();
         let mut of = 0;
         for Dry { body, .. } in &self.list {
-            let Some(pose) = pose(*body) else { continue };
+            let Some(place) = place(*body) else { continue };
             of += 1;
-            let off = views.iter().map(|view| view.eye.distance_squared(pose.position)).fold(f32::INFINITY, f32::min);
+            let off = views.iter().map(|view| view.eye.distance_squared(place)).fold(f32::INFINITY, f32::min);
             let at = near.iter().position(|(other, _)| off < *other).unwrap_or(near.len());
             if at < MAX_DRY {
                 if near.is_full() {

@@ -55,7 +55,7 @@ impl OpenWater {
         self.plan_remote(&mut plan);
         plan.shore = self.shore.mark();
         if facts.present && !nobody {
-            plan.dry = self.dry.plan(views, |id| self.drawn_pose(id));
+            plan.dry = self.dry.plan(views, |id| self.bodies.place_of(id));
         }
         let awake = self.grids.iter().filter(|grid| grid.is_awake()).count();
         if facts.present
