@@ -54,9 +54,9 @@ fn cascades_change_without_a_pop_and_end_as_if_they_had_always_been() {
         }
         changing.set_cascades(desc(others).cascades, 2.0).unwrap();
         let step = run(&mut changing, 160, &at);
-        // What the seas do by themselves in the same time.
+        // What the seas do by themselves in the same time; a fade of 2 s adds up to .0125 of their difference a tick.
         let usual = run(&mut before, 160, &at).max(run(&mut after, 160, &at));
-        assert!(step < 1.3 * usual, "{others:?}: {step} against {usual}");
+        assert!(step < 1.6 * usual, "{others:?}: {step} against {usual}");
         assert_eq!(heights(&changing, &at), heights(&after, &at), "{others:?}");
         assert_eq!(changing.desc().cascades, desc(others).cascades);
     }
@@ -79,7 +79,7 @@ fn presets_follow_on_each_other() {
         });
         let usual = usual[0].max(usual[1]);
         before = preset;
-        assert!(step < 1.4 * usual, "{preset:?}: {step} against {usual}");
+        assert!(step < 1.6 * usual, "{preset:?}: {step} against {usual}");
         assert_eq!(water.desc().cascades, preset.water().cascades);
         assert_eq!(water.ocean().unwrap().desc().cascades, preset.water().cascades);
     }
