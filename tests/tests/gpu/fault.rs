@@ -269,7 +269,7 @@ fn wild_views_draw_nothing_wild() {
         for tick in scene.water.advance(DT) {
             scene.water.tick(tick, &mut scene.store).unwrap();
         }
-        let views = wild.map(|b| View { eye: Vec3::new(a, b, a), pixel_angle: b, ..view()[0] });
+        let views = wild.map(|b| View { eye: Vec3::new(a, b, a), pixel_angle: b });
         let plan = scene.water.plan(&views, ALL);
         context.submit(|encoder| scene.water.encode(&plan, encoder));
     }
