@@ -93,12 +93,12 @@ impl Life {
         Ok(())
     }
 
-    /// How many answers of the water and states of bodies are not finite.
+    /// How many answers of the water and bodies as it has them are not finite.
     pub(super) fn broken(&mut self) -> usize {
         let points: [Vec2; 8] = std::array::from_fn(|i| Vec2::from_angle(i as f32) * 6.0 * i as f32);
         self.water.sample(&points, &mut self.answers);
         let sane = |s: &&WaterSample| !(s.height.is_finite() && s.normal.is_finite() && s.velocity.is_finite());
-        let state = |id: &&BodyId| self.bodies.get(**id).is_some_and(|s| !s.position.is_finite());
+        let state = |id: &&BodyId| self.water.body(**id).is_ok_and(|body| !body.state().position.is_finite());
         self.answers.iter().filter(sane).count() + self.afloat.iter().filter(state).count()
     }
 
