@@ -12,11 +12,13 @@ use crate::{
 const WITHOUT_WGPU: [&str; 5] = ["open-water-shaders", "floating-body", "ocean-spectrum", "wave-grid", "open-water"];
 
 /// Features that need no wgpu, each by itself.
-const ALONE: [(&str, &str); 4] = [
+const ALONE: [(&str, &str); 6] = [
     ("floating-body", "mesh-files"),
     ("open-water", "mesh-files"),
     ("open-water", "map-files"),
     ("open-water", "rapier"),
+    ("open-water", "serde"),
+    ("open-water", "tracing"),
 ];
 
 /// An adapter, then every test and doc test, with and without wgpu.
