@@ -235,12 +235,31 @@ impl Body {
         self.good = self.state;
     }
 
+    /// As [`Body::set_state`], however near: the next step starts there without a splash, and as after no motion.
+    ///
+    /// # Errors
+    /// [`BodyError::InvalidValue`]: the state is not finite, or farther than 1000 km away; then nothing has changed.
+    pub fn teleport(&mut self, state: BodyState) -> Result<(), BodyError> {
+        if !state.is_sane() {
+            let (field, value) = ("state.position", f64::from(state.position.abs().max_element()));
+            return Err(BodyError::InvalidValue {
+                field,
+                value,
+                bound: "finite, like all of the state, and within 1000 km",
+            });
+        }
+        self.set_state(state);
+        self.restart = true;
+        Ok(())
+    }
+
     /// Shifts the local origin by `offset` m (x, z) without disturbing anything: what was at `offset` is at 0.
     pub fn rebase(&mut self, offset: Vec2) {
         let shift = Vec3::new(offset.x, 0.0, offset.y);
         self.state.position -= shift;
         self.good.position -= shift;
         self.columns.iter_mut().for_each(|c| c.rebase(offset));
+        self.waters.iter_mut().for_each(|water| water.at -= offset);
         self.solids.rebase(shift);
         self.radiator.iter_mut().for_each(|r| r.rebase(offset));
         self.wash.center -= offset;

@@ -16,6 +16,7 @@ use crate::cpu::body_water::BodyWater;
 use crate::cpu::surface::Composite;
 use crate::grids::{Grid, Grids, Sim};
 use crate::handover::{Homes, Settler};
+use crate::rebase::lifted;
 use crate::store::{BodyId, BodyMotion, BodyStore, GridId, Wants};
 use crate::{OpenWaterError, Reports};
 
@@ -163,6 +164,24 @@ impl Bodies {
         let at = *self.index.get(id).ok_or(OpenWaterError::UnknownBody(id))?;
         self.list[at].controls = controls;
         Ok(())
+    }
+
+    /// Puts a body elsewhere: it has not gone there.
+    pub(crate) fn teleport(&mut self, id: BodyId, state: BodyState) -> Result<(), OpenWaterError> {
+        let at = *self.index.get(id).ok_or(OpenWaterError::UnknownBody(id))?;
+        self.list[at].body.teleport(state)?;
+        self.list[at].previous = None;
+        Ok(())
+    }
+
+    /// Moves the local origin by `offset`, metres.
+    pub(crate) fn rebase(&mut self, offset: Vec2) {
+        for entry in &mut self.list {
+            entry.body.rebase(offset);
+            if let Some(pose) = &mut entry.previous {
+                pose.position -= lifted(offset);
+            }
+        }
     }
 
     pub(crate) fn explain(&self, id: BodyId) -> Result<Explanation, OpenWaterError> {

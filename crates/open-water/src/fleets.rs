@@ -38,6 +38,10 @@ impl Fleets {
         }
     }
 
+    pub(crate) fn rebase(&mut self, offset: Vec2) {
+        self.list.values_mut().for_each(|fleet| fleet.rebase(offset));
+    }
+
     /// Hands what the pieces displaced to the finest grid that each is in, in a fixed order.
     pub(crate) fn disturb(&mut self, grids: &mut Grids) {
         for fleet in self.list.values().filter(|fleet| by_grid(fleet)) {

@@ -106,9 +106,9 @@ impl Grid {
     ) -> Option<DVec2> {
         match self.desc.follow {
             Follow::Fixed(place) => Some(place),
-            Follow::Body(id) => body(id).map(|p| DVec2::new(p.x.into(), p.z.into()) + self.trail),
+            Follow::Body(id) => body(id).map(|p| self.origin + DVec2::new(p.x.into(), p.z.into()) + self.trail),
             Follow::Point => self.point,
-            Follow::View => look?.middle(level, self.room()),
+            Follow::View => Some(self.origin + look?.middle(level, self.room())?),
         }
     }
 }

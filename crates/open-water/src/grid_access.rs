@@ -40,6 +40,9 @@ impl OpenWater {
             return Err(error);
         }
         let id = self.grids.insert(desc, sim);
+        if let Some(grid) = self.grids.get_mut(id) {
+            grid.set_origin(self.shore.origin);
+        }
         if nested {
             self.nest(id);
         }

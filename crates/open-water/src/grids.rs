@@ -37,6 +37,8 @@ pub(crate) struct Grid {
     pub(crate) into: Option<GridId>,
     /// Where its middle stands from the body that it follows, metres.
     pub(crate) trail: DVec2,
+    /// World place of the local origin, metres.
+    pub(crate) origin: DVec2,
     /// The place it follows, with `Follow::Point`.
     pub(crate) point: Option<DVec2>,
     /// Around where it is seen, local, if it repeats.
@@ -78,7 +80,7 @@ impl Grid {
             #[cfg(feature = "gpu")]
             Sim::Gpu(grid) => {
                 let window = grid.window();
-                let [a, b] = [low, high].map(|corner| window.cells_from_corner(corner, DVec2::ZERO));
+                let [a, b] = [low, high].map(|corner| window.cells_from_corner(corner, self.origin));
                 let cells = DVec2::new(f64::from(window.cells[0]), f64::from(window.cells[1]));
                 let apart = a.max(b).cmplt(DVec2::ZERO).any() || a.min(b).cmpgt(cells).any();
                 if grid.is_awake() && !apart { f32::INFINITY } else { 0.0 }
@@ -114,6 +116,16 @@ impl Grid {
             Sim::Cpu(grid) => grid.hole(self.gain),
             #[cfg(feature = "gpu")]
             Sim::Gpu(grid) => grid.hole(self.gain),
+        }
+    }
+
+    /// World place of what is local from now on.
+    pub(crate) fn set_origin(&mut self, origin: DVec2) {
+        self.origin = origin;
+        match &mut self.sim {
+            Sim::Cpu(grid) => grid.set_origin(origin),
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.set_origin(origin),
         }
     }
 
@@ -226,7 +238,7 @@ impl Grid {
     /// `margin` cells from there. One that is too large for the grid need only be in its middle.
     pub(crate) fn covers(&self, place: Vec2, reach: f32, margin: f64) -> bool {
         let window = self.window();
-        let at = window.cells_from_corner(place, DVec2::ZERO);
+        let at = window.cells_from_corner(place, self.origin);
         !self.repeats()
             && (0..2).all(|k| {
                 let cells = f64::from(window.cells[k]);
@@ -303,12 +315,21 @@ impl Grids {
             leaving: false,
             into: None,
             trail: DVec2::ZERO,
+            origin: DVec2::ZERO,
             point: None,
             middle: Vec2::ZERO,
             feeding: None,
         });
         self.place();
         id
+    }
+
+    /// Moves the local origin by `offset`, to `origin` in the world.
+    pub(crate) fn rebase(&mut self, origin: DVec2, offset: Vec2) {
+        for grid in &mut self.list {
+            grid.set_origin(origin);
+            grid.middle -= offset;
+        }
     }
 
     /// Takes a grid out at once.
@@ -363,7 +384,8 @@ impl Grids {
             if let Some(target) = grid.target(look, level, &place_of) {
                 grid.center_on(target);
             }
-            grid.middle = look.map_or(Vec2::ZERO, |look| Vec2::new(look.eye.x, look.eye.z));
+            let world = (-grid.origin).as_vec2();
+            grid.middle = look.map_or(world, |look| Vec2::new(look.eye.x, look.eye.z));
         }
     }
 

@@ -50,9 +50,11 @@ mod plan;
 mod planner;
 #[cfg(feature = "rapier")]
 pub mod rapier;
+mod rebase;
 mod sea;
 mod shore;
 mod store;
+mod stores;
 mod wakes;
 mod water;
 
@@ -69,6 +71,7 @@ pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shel
 pub use moorings::Mooring;
 pub use plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
 pub use store::{BodyId, BodyMotion, BodyStates, BodyStore, FleetId, GridId, MooringId, Wants};
+pub use stores::{BodySlices, SliceStore, Stores};
 pub use wakes::{Wake, WakesDesc};
 pub use water::{OpenWater, Reports};
 

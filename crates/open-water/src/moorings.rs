@@ -3,10 +3,12 @@
 //! The pull itself is `floating-body`'s, in every sub-step of the body. A mooring goes with its body.
 
 use floating_body::MooringLine;
+use glam::Vec2;
 use slotmap::SlotMap;
 
 use crate::OpenWaterError;
 use crate::bodies::Bodies;
+use crate::rebase::lifted;
 use crate::store::{BodyId, MooringId};
 
 /// A body made fast with a line.
@@ -57,6 +59,11 @@ impl Moorings {
         for (mooring, line) in mine.zip(found.moorings()) {
             mooring.line.anchor = line.anchor;
         }
+    }
+
+    /// Anchors stay where they are in the world, the local origin moves by `offset`.
+    pub(crate) fn rebase(&mut self, offset: Vec2) {
+        self.0.values_mut().for_each(|mooring| mooring.line.anchor -= lifted(offset));
     }
 
     fn of(&self, body: BodyId) -> impl Iterator<Item = (MooringId, MooringLine)> {

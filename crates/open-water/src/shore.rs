@@ -72,7 +72,7 @@ impl OpenWater {
         let at = Vec2::new(point.x, point.z);
         let mut sample = [WaterSample::default()];
         self.sample(&[at], &mut sample);
-        let above_bed = self.shore.terrain.as_ref().is_none_or(|t| point.y >= t.bed().elevation(at.as_dvec2()));
+        let above_bed = self.shore.terrain.as_ref().is_none_or(|t| point.y >= t.bed().elevation(self.shore.world(at)));
         sample[0].wet && point.y < sample[0].height && above_bed
     }
 

@@ -38,7 +38,54 @@ pub enum BodyMotion {
     Wrench(Wrench),
 }
 
-/// The game's store of body states.
+/// The game's store of body states. [`BodyStates`] is a ready-made one, [`BodySlices`](crate::BodySlices) makes one of two
+/// slices, [`Stores`](crate::Stores) takes several.
+///
+/// Over an entity-component system it takes a few lines. Here components stand in maps by entity:
+///
+/// ```
+/// use std::collections::HashMap;
+///
+/// use glam::{Quat, Vec3};
+/// use open_water::{BodyDesc, BodyId, BodyMotion, BodyState, BodyStore, Hull, OpenWater, OpenWaterDesc};
+///
+/// #[derive(Clone, Copy, PartialEq, Eq, Hash)]
+/// struct Entity(u32);
+///
+/// #[derive(Default)]
+/// struct World {
+///     floating: HashMap<BodyId, Entity>,
+///     transforms: HashMap<Entity, (Vec3, Quat)>,
+///     velocities: HashMap<Entity, (Vec3, Vec3)>,
+/// }
+///
+/// impl BodyStore for World {
+///     fn read(&self, id: BodyId) -> Option<BodyState> {
+///         let entity = self.floating.get(&id)?;
+///         let (position, orientation) = *self.transforms.get(entity)?;
+///         let (velocity, angular_velocity) = *self.velocities.get(entity)?;
+///         Some(BodyState { position, orientation, velocity, angular_velocity })
+///     }
+///
+///     fn write(&mut self, id: BodyId, motion: BodyMotion) {
+///         let (Some(entity), BodyMotion::State(state)) = (self.floating.get(&id), motion) else { return };
+///         self.transforms.insert(*entity, (state.position, state.orientation));
+///         self.velocities.insert(*entity, (state.velocity, state.angular_velocity));
+///     }
+/// }
+///
+/// let mut water = OpenWater::headless(OpenWaterDesc::default())?;
+/// let mut world = World::default();
+/// let duck = Entity(7);
+/// world.floating.insert(water.add_body(BodyDesc::from_hull(&Hull::sphere(0.2)?, 10.0))?, duck);
+/// world.transforms.insert(duck, (Vec3::Y * 3.0, Quat::IDENTITY));
+/// world.velocities.insert(duck, (Vec3::ZERO, Vec3::ZERO));
+/// for tick in water.advance(1.0 / 60.0) {
+///     water.tick(tick, &mut world)?;
+/// }
+/// assert!(world.transforms[&duck].0.y < 3.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait BodyStore {
     /// The body's state at the start of the tick, or `None` if it takes no part.
     fn read(&self, id: BodyId) -> Option<BodyState>;

@@ -4,6 +4,7 @@ mod dry;
 mod fade;
 mod include;
 mod land;
+mod rebase;
 
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{

@@ -124,7 +124,7 @@ impl Composite<'_> {
 
     /// What is solid at points.
     pub(super) fn touch(&self, points: &[Vec3], out: &mut [Touch]) -> bool {
-        self.shore.terrain.as_ref().is_some_and(|terrain| terrain.touch(points, out))
+        self.shore.touch(points, out)
     }
 }
 

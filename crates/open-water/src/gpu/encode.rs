@@ -86,7 +86,7 @@ impl Gpu {
                     self.shown.shore = plan.shore;
                     self.shown.dry = plan.dry.mark(plan.tick, plan.alpha);
                     let size = self.ocean.as_ref().map_or(1, GpuOcean::size);
-                    self.surface.write_table(frame, plan.time, ocean, grids.iter(), plan.shore.level, size);
+                    self.surface.write_table(frame, plan.time, ocean, grids.iter(), plan.shore, size);
                 }
                 Work::GridUpload { grid, .. } => {
                     if let Some(grid) = grids.get_mut(grid) {

@@ -82,6 +82,7 @@ impl OpenWater {
         let mut loss = DeviceLoss::default();
         let mut remotes = Vec::new();
         gpu.remote.set_medium(self.shore.medium());
+        gpu.remote.set_origin(self.shore.origin);
         for grid in self.grids.iter() {
             let Sim::Gpu(old) = &grid.sim else { continue };
             let mut remote = gpu.add_grid(grid.desc.wave_grid(self.clock.dt()))?;
@@ -103,6 +104,7 @@ impl OpenWater {
                 && let Some(new) = remotes.next()
             {
                 **old = new;
+                old.set_origin(self.shore.origin);
             }
         }
         self.gpu = Some(gpu);

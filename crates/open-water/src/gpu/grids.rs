@@ -49,6 +49,10 @@ impl RemoteGrid {
         self.window
     }
 
+    pub(crate) fn set_origin(&mut self, origin: DVec2) {
+        self.mirror.origin = origin;
+    }
+
     pub(crate) fn center_on(&mut self, target: DVec2) {
         self.target = Some(target);
     }
@@ -139,6 +143,11 @@ impl RemoteGrids {
 
     pub(crate) fn remove(&mut self, id: GpuGridId) {
         self.grids.remove(id);
+    }
+
+    /// World place of what is local from now on.
+    pub(crate) fn set_origin(&mut self, origin: DVec2) {
+        self.grids.set_origin(origin);
     }
 
     /// What the waves of all grids travel through.

@@ -7,6 +7,8 @@ use wave_grid::{GridSample, Window};
 /// An old copy of a grid's drawn heights.
 pub(crate) struct Mirror {
     window: Window,
+    /// World place of the local origin, metres.
+    pub(crate) origin: DVec2,
     /// (height, foam) of each cell; empty until the first copy.
     cells: Vec<[f32; 2]>,
     tick: Option<u64>,
@@ -14,7 +16,7 @@ pub(crate) struct Mirror {
 
 impl Mirror {
     pub(crate) fn new(cells: [u32; 2], cell_size: [f32; 2]) -> Self {
-        Self { window: Window { corner: [0; 2], cells, cell_size }, cells: Vec::new(), tick: None }
+        Self { window: Window { corner: [0; 2], cells, cell_size }, origin: DVec2::ZERO, cells: Vec::new(), tick: None }
     }
 
     /// The tick that it shows.
@@ -49,7 +51,7 @@ impl Mirror {
         if self.cells.len() != nx * nz {
             return None;
         }
-        let at = self.window.cells_from_corner(point, DVec2::ZERO) - 0.5;
+        let at = self.window.cells_from_corner(point, self.origin) - 0.5;
         let base = at.floor();
         let inside = |x: f64, n: usize| x >= 1.0 && x <= n as f64 - 3.0;
         if !(inside(base.x, nx) && inside(base.y, nz)) {

@@ -1,6 +1,5 @@
 //! The composite surface's bind group: table, cascades, pool of drawn heights, rasters of the land.
 
-use glam::DVec2;
 use ocean_spectrum::Ocean;
 use ocean_spectrum::gpu::GpuOcean;
 use open_water_shaders::pipeline::{Frame, bind_group};
@@ -10,6 +9,7 @@ use super::dry::DryRoom;
 use super::land::{Land, LandTexels};
 use crate::OpenWaterError;
 use crate::grids::{Grid, REACH};
+use crate::land::ShoreMark;
 
 /// Looks repeat their time after this long, so that it stays exact in an f32, seconds.
 const LOOKS_TIME: f64 = 3600.0;
@@ -154,7 +154,7 @@ impl SurfaceBinding {
         time: f64,
         ocean: Option<&Ocean>,
         grids: impl Iterator<Item = &'a Grid>,
-        level: f32,
+        shore: ShoreMark,
         size: u32,
     ) {
         let mut table = SurfaceTable { time: (time % LOOKS_TIME) as f32, ..Default::default() };
@@ -172,7 +172,7 @@ impl SurfaceBinding {
         for (entry, grid) in table.grids.iter_mut().zip(grids.filter(|grid| grid.is_awake())) {
             let window = grid.window();
             *entry = SurfaceGrid {
-                corner: window.local_corner(DVec2::ZERO).into(),
+                corner: window.local_corner(grid.origin).into(),
                 cell_size: window.cell_size,
                 base: grid.base,
                 cells: window.cells,
@@ -183,8 +183,8 @@ impl SurfaceBinding {
             };
             table.grid_count += 1;
         }
-        let land = self.land.as_ref().map(|land| land.entry(DVec2::ZERO));
-        table.land = SurfaceLand { level, ..land.unwrap_or_default() };
+        let land = self.land.as_ref().map(|land| land.entry(shore.origin));
+        table.land = SurfaceLand { level: shore.level, ..land.unwrap_or_default() };
         self.dry.write(frame, &self.pool);
         self.dry.tell(&mut table);
         frame.write(&self.table, 0, bytemuck::bytes_of(&table));

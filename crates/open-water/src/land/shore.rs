@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use glam::Vec2;
+use floating_body::Touch;
+use glam::{DVec2, Vec2, Vec3};
 use wave_grid::Medium;
 
 use super::{Baked, Terrain};
@@ -10,6 +11,8 @@ use super::{Baked, Terrain};
 /// Land and water level.
 #[derive(Default)]
 pub(crate) struct Shore {
+    /// World place of the local origin, metres: land is given in world coordinates.
+    pub(crate) origin: DVec2,
     /// Water level above the datum, metres.
     pub(crate) level: f32,
     /// The level as bodies found it in the last tick.
@@ -57,12 +60,13 @@ impl Turning {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct ShoreMark {
     pub(crate) level: f32,
+    pub(crate) origin: DVec2,
     revision: u64,
 }
 
 impl Shore {
     pub(crate) fn mark(&self) -> ShoreMark {
-        ShoreMark { level: self.level, revision: self.revision }
+        ShoreMark { level: self.level, origin: self.origin, revision: self.revision }
     }
 
     /// Whether the level is what it was in the last tick.
@@ -78,12 +82,22 @@ impl Shore {
     /// Whether land or no-water outlines leave a place (local x, z) without water.
     pub(crate) fn is_dry(&self, point: Vec2) -> bool {
         let Some(terrain) = &self.terrain else { return false };
-        let place = point.as_dvec2();
+        let place = self.world(point);
         self.level <= terrain.bed().elevation(place) || terrain.is_kept_dry(place)
     }
 
     /// Whether a place (local x, z) is inside a no-water outline.
     pub(crate) fn is_kept_dry(&self, point: Vec2) -> bool {
-        self.terrain.as_ref().is_some_and(|terrain| terrain.is_kept_dry(point.as_dvec2()))
+        self.terrain.as_ref().is_some_and(|terrain| terrain.is_kept_dry(self.world(point)))
+    }
+
+    /// World place of a local one (x, z).
+    pub(crate) fn world(&self, point: Vec2) -> DVec2 {
+        self.origin + point.as_dvec2()
+    }
+
+    /// What is solid at local points (y above the datum). Returns whether anything is near.
+    pub(crate) fn touch(&self, points: &[Vec3], out: &mut [Touch]) -> bool {
+        self.terrain.as_ref().is_some_and(|terrain| terrain.touch(self.origin, points, out))
     }
 }

@@ -19,11 +19,11 @@ impl DepthMap {
 }
 
 impl Terrain {
-    /// What is solid at points (local = world, y above the datum). Returns whether anything is near.
-    pub(crate) fn touch(&self, points: &[Vec3], out: &mut [Touch]) -> bool {
+    /// What is solid at points (x and z from `origin` in the world, y above the datum). Returns whether anything is near.
+    pub(crate) fn touch(&self, origin: DVec2, points: &[Vec3], out: &mut [Touch]) -> bool {
         let (low, high) =
             points.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
-        let flat = |v: Vec3, by: f32| DVec2::new((v.x + by).into(), (v.z + by).into());
+        let flat = |v: Vec3, by: f32| origin + DVec2::new((v.x + by).into(), (v.z + by).into());
         let (from, to) = (flat(low, -REACH), flat(high, REACH));
         let by_bed = low.y - REACH < self.bed().highest(from, to);
         let by_wall = self.walls().any(|wall| wall.may_touch(from, to));
@@ -33,7 +33,7 @@ impl Terrain {
         let mut near = false;
         for (point, out) in points.iter().zip(out) {
             *out = Touch::NONE;
-            let place = DVec2::new(point.x.into(), point.z.into());
+            let place = origin + DVec2::new(point.x.into(), point.z.into());
             if by_bed {
                 let (elevation, slope) = self.bed().plane(place);
                 let normal = Vec3::new(-slope.x, 1.0, -slope.y).normalize();

@@ -46,7 +46,7 @@
 //!   one that floats in waves or drifts stays awake.
 //! - Kinematic and fixed rigid bodies push the water, but not back; disabled and removed ones take no part.
 //!
-//! Bodies without a rigid body, such as flotsam by the hundred, can live in another store: [`RapierStore::or`].
+//! Bodies without a rigid body, such as flotsam by the hundred, can live in another store: [`Stores`](crate::Stores).
 
 mod error;
 mod link;

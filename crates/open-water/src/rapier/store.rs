@@ -89,7 +89,7 @@ impl RapierBodies {
 
     /// The store for [`OpenWater::tick`].
     pub fn store<'a>(&'a mut self, bodies: &'a mut RigidBodySet) -> RapierStore<'a> {
-        RapierStore { links: self, bodies, others: None }
+        RapierStore { links: self, bodies }
     }
 
     /// Where to draw a body's mesh after the physics step: between its poses before and after the last tick, as far as
@@ -106,40 +106,20 @@ impl RapierBodies {
 pub struct RapierStore<'a> {
     links: &'a mut RapierBodies,
     bodies: &'a mut RigidBodySet,
-    others: Option<&'a mut dyn BodyStore>,
-}
-
-impl<'a> RapierStore<'a> {
-    /// Bodies that have no rigid body live in `others`.
-    #[must_use]
-    pub fn or(mut self, others: &'a mut dyn BodyStore) -> Self {
-        self.others = Some(others);
-        self
-    }
 }
 
 impl BodyStore for RapierStore<'_> {
     fn read(&self, id: BodyId) -> Option<BodyState> {
-        match self.links.links.get(id) {
-            Some(link) => link.read(self.bodies.get(link.handle)?),
-            None => self.others.as_ref()?.read(id),
-        }
+        let link = self.links.links.get(id)?;
+        link.read(self.bodies.get(link.handle)?)
     }
 
-    fn wants(&self, id: BodyId) -> Wants {
-        match &self.others {
-            Some(others) if !self.links.links.contains_key(id) => others.wants(id),
-            _ => Wants::Wrench,
-        }
+    fn wants(&self, _id: BodyId) -> Wants {
+        Wants::Wrench
     }
 
     fn write(&mut self, id: BodyId, motion: BodyMotion) {
-        let Some(link) = self.links.links.get_mut(id) else {
-            if let Some(others) = &mut self.others {
-                others.write(id, motion);
-            }
-            return;
-        };
+        let Some(link) = self.links.links.get_mut(id) else { return };
         let (BodyMotion::Wrench(wrench), Some(rigid)) = (motion, self.bodies.get(link.handle)) else { return };
         let mut wake = false;
         // A body asleep is not even touched: Rapier would look at it again.

@@ -229,7 +229,7 @@ impl OpenWater {
     fn make(&mut self, desc: &WakesDesc, level: u32, asking: &Asking, old: Option<GridId>) -> Option<GridId> {
         let desc = GridDesc { follow: Follow::Body(asking.body), ..desc.level(level, asking.size) };
         let id = self.add_grid(desc).ok()?;
-        let place = DVec2::new(asking.place.x.into(), asking.place.z.into());
+        let place = self.shore.world(Vec2::new(asking.place.x, asking.place.z));
         let trail = old.and_then(|old| self.grids.get(old).ok()).map_or(DVec2::ZERO, |old| old.trail);
         if let Some(grid) = self.grids.get_mut(id) {
             grid.trail = trail;

@@ -108,7 +108,8 @@ fn flotsam_may_live_in_a_store_of_its_own() {
     flotsam.insert(id, BodyState::at_rest(Vec3::Y * 3.0));
     for _ in 0..120 {
         for tick in world.water.advance(DT) {
-            world.water.tick(tick, &mut world.floating.store(&mut world.physics.bodies).or(&mut flotsam)).unwrap();
+            let mut rigid = world.floating.store(&mut world.physics.bodies);
+            world.water.tick(tick, &mut Stores(&mut [&mut rigid, &mut flotsam])).unwrap();
         }
     }
     assert!(flotsam.get(id).unwrap().position.y < 1.5);

@@ -5,7 +5,7 @@ pub(crate) use open_water::rapier::rapier3d::prelude::*;
 pub(crate) use open_water::rapier::{GRAVITY, RapierBodies, RapierError, rigid_body};
 pub(crate) use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, CascadeDesc, Closure, Controls, Follow, GridDesc, Hull, Mooring,
-    MooringId, MooringLine, OpenWater, OpenWaterDesc, Preset, Radiation, SeaState, TriMesh,
+    MooringId, MooringLine, OpenWater, OpenWaterDesc, Preset, Radiation, SeaState, Stores, TriMesh,
 };
 
 pub(crate) const DT: f32 = 1.0 / 60.0;
