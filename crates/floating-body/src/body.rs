@@ -6,6 +6,7 @@ mod moorings;
 mod query;
 mod radiate;
 mod slams;
+mod snapshot;
 mod state;
 mod stiffness;
 mod substep;
@@ -16,6 +17,7 @@ use glam::{Mat3, Vec2, Vec3};
 
 use self::clipped::Clipping;
 pub use self::explain::{Explanation, Load, LoadKind};
+pub use self::snapshot::BodySnapshot;
 pub use self::state::{BodyState, Wrench};
 use self::stiffness::stiffness;
 use self::touch::Solids;

@@ -13,6 +13,7 @@ use crate::lewis::{Strip, sums};
 
 /// Added mass and linear radiation damping along and about the hull's axes through its centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Coefficients {
     /// Added mass in kg: surge (x), heave (y), sway (z).
     pub added_mass: Vec3,

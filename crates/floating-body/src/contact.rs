@@ -14,6 +14,7 @@ use crate::{BodyError, GRAVITY, Touch};
 
 /// How a body meets the bed and quays.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Contact {
     /// How far its own weight presses it in, m, 0.0001 to 10. Less is harder.
     pub sink: f32,

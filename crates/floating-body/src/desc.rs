@@ -15,6 +15,7 @@ pub(crate) const PATCH_LENGTH: f32 = 2.5;
 
 /// How rotation is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Inertia {
     /// The paper's pre-rigid body: one scalar (the mean principal moment) and no `omega x I omega`. Exact for an
     /// isotropic tensor only; [`Body::inertia_mismatch`](crate::Body::inertia_mismatch) tells how far off a shape is.
@@ -27,6 +28,7 @@ pub enum Inertia {
 
 /// Who accounts for the waves that a body makes. Both at once would count them twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Radiation {
     /// Added mass and linear damping act; a grid of the body's own is left out of the forces, so that its wake does not
     /// lift it. In a grid that others disturb it feels all waves and, to count none twice, makes none.
@@ -42,6 +44,7 @@ pub enum Radiation {
 
 /// How a body reads the water.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Sampling {
     /// One sample per force point (and one for the propeller).
     Points,
@@ -51,6 +54,7 @@ pub enum Sampling {
 
 /// Where buoyancy acts.
 #[derive(Clone, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ForcePoints {
     /// As many as the shape needs: 32 columns for a mesh, 1 for a sphere, 4 for a log, 8 or 32 for a box.
     #[default]
@@ -63,6 +67,7 @@ pub enum ForcePoints {
 
 /// How exactly buoyancy follows the hull's shape.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Quality {
     /// Summed over [`BodyDesc::points`].
     #[default]
@@ -78,6 +83,7 @@ pub enum Quality {
 
 /// A body to be made. [`BodyDesc::from_hull`] fills everything in; change what you know better.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BodyDesc {
     /// The shape.
     pub hull: Hull,

@@ -6,6 +6,7 @@ use crate::hull::Waterline;
 
 /// Resistance against the water, along and about the hull's axes. Acts in proportion to the immersed volume.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Drag {
     /// Linear resistance in N s/m: surge (x), heave (y), sway (z).
     pub linear: Vec3,

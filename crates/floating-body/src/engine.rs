@@ -7,6 +7,7 @@ use crate::error::check_range;
 
 /// What the game asks of a body in one tick.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Controls {
     /// Engine power from -1 (astern) to 1.
     pub throttle: f32,
@@ -35,6 +36,7 @@ impl Controls {
 /// A propeller with a rudder. The paper lets the engine push along the velocity, which is undefined at rest; here it
 /// pushes along the hull's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Engine {
     /// Thrust in N at standstill and full throttle.
     pub bollard_thrust: f32,

@@ -9,6 +9,7 @@ use crate::{ForcePoint, GRAVITY, SurfacePatch, SurfaceSample, WaterSurface};
 
 /// The water at a force point for the length of a tick: a plane through what was sampled.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct LocalWater {
     pub(crate) at: Vec2,
     /// Without the body's own grid.

@@ -24,11 +24,14 @@
 //! # }
 //! ```
 
+mod arena;
 mod body;
 mod coefficients;
 mod contact;
 mod desc;
 mod drag;
+#[cfg(feature = "serde")]
+pub mod endless;
 mod engine;
 mod error;
 #[cfg(feature = "mesh-files")]
@@ -47,7 +50,8 @@ mod source;
 mod water;
 mod wind;
 
-pub use body::{Body, BodyState, Explanation, Load, LoadKind, Wrench};
+pub use arena::Arena;
+pub use body::{Body, BodySnapshot, BodyState, Explanation, Load, LoadKind, Wrench};
 pub use coefficients::Coefficients;
 pub use contact::Contact;
 pub use desc::{BodyDesc, ForcePoints, Inertia, Quality, Radiation, Sampling};

@@ -10,6 +10,7 @@ use crate::error::check_range;
 
 /// A line from a point of the hull to a place that stays.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MooringLine {
     /// Where it is made fast on board, hull frame, m.
     pub point: Vec3,
@@ -23,6 +24,7 @@ pub struct MooringLine {
     pub damping: f32,
     /// Pull in N at which its anchor drags, so that it never pulls more; above 0. Infinite (default of
     /// [`MooringLine::rope`]) where it is made fast for good.
+    #[cfg_attr(feature = "serde", serde(with = "crate::endless"))]
     pub holds: f32,
 }
 

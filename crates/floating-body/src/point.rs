@@ -11,6 +11,7 @@ use crate::error::check_range;
 
 /// How a piece fills its extents, which decides how fast it immerses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PointShape {
     /// A box or an upright column: immersed linearly.
     Box,
@@ -23,6 +24,7 @@ pub enum PointShape {
 
 /// One piece of a hull, in the hull's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ForcePoint {
     /// Centre in m.
     pub position: Vec3,

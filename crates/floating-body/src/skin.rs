@@ -10,6 +10,7 @@ const LEAST_REYNOLDS: f32 = 1.0e5;
 
 /// What rubs along the water. Acts along the hull's x; across it form drag is far larger.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Skin {
     /// Wetted area at rest in m^2, 0 to 1e6.
     pub area: f32,

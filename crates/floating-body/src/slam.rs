@@ -15,6 +15,7 @@ use crate::{BodyError, ForcePoint};
 
 /// How a bottom meets the water.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Slamming {
     /// Mean angle of the bottom to the water, radians, 0 to 1.5.
     pub deadrise: f32,
@@ -95,6 +96,15 @@ impl Slam {
                 Catch { point, mass, ahead, range, wet: 1.0 }
             });
         Self { pile_up, bottoms: bottoms.collect() }
+    }
+
+    /// Share of each bottom that is wet.
+    pub(crate) fn wet(&self) -> impl Iterator<Item = f32> + '_ {
+        self.bottoms.iter().map(|bottom| bottom.wet)
+    }
+
+    pub(crate) fn set_wet(&mut self, wet: &[f32]) {
+        self.bottoms.iter_mut().zip(wet).for_each(|(bottom, wet)| bottom.wet = *wet);
     }
 
     /// Calls `caught(point, mass, place)` with what each bottom catches anew, kg, and its place in the hull's frame about the

@@ -10,6 +10,7 @@ use crate::forces::{LocalWater, Pose};
 
 /// A change of displaced volume to be put into the home grid, or wash from a propeller.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Displacement {
     /// Where, local world (x, z) in m.
     pub center: Vec2,
@@ -22,7 +23,8 @@ pub struct Displacement {
 }
 
 /// The column of water that a force point displaced when it was last told.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Column {
     at: Vec2,
     volume: f32,

@@ -19,6 +19,7 @@ const SHIP: (f32, f32) = (0.6, 0.9);
 
 /// What the wind finds. It acts where [`WaterSurface::wind`](crate::WaterSurface::wind) is not zero.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Windage {
     /// Drag area `Cd A` in m^2 along each of the hull's axes, of what is dry at rest; in proportion to the dry volume.
     pub area: Vec3,

@@ -53,6 +53,7 @@ mod ocean;
 mod query;
 pub mod reference;
 mod sea;
+mod snapshot;
 mod synthesis;
 
 pub use error::{Notice, OceanError};
@@ -69,6 +70,7 @@ pub use sea::partition::{Partition, Spectrum, Spreading, TableRow, Tail};
 pub use sea::plane::DirectionalTable;
 pub use sea::shoal::{BREAKING_HEIGHT, depth_share};
 pub use sea::spectrum::{SLOPE_CUTOFF, WaveSpectrum};
+pub use snapshot::OceanSnapshot;
 pub use synthesis::lazy::Outputs;
 
 #[cfg(doctest)]

@@ -22,6 +22,7 @@ use crate::{Notice, OceanError, SeaState};
 
 /// One cascade: a periodic square of sea that carries one band of wavelengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CascadeDesc {
     /// Cells per side: a power of two from 16 to 1,024.
     pub size: u32,
@@ -43,6 +44,7 @@ impl CascadeDesc {
 
 /// Description of a sea.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OceanDesc {
     /// The sea state.
     pub sea: SeaState,
@@ -144,7 +146,7 @@ pub struct Ocean {
     pub(crate) moment: Moment,
     pub(crate) revision: u64,
     map: Option<Placed>,
-    origin: DVec2,
+    pub(crate) origin: DVec2,
 }
 
 impl Ocean {
@@ -158,13 +160,17 @@ impl Ocean {
 
     /// With vector units of one's own choice.
     pub(crate) fn with_level(desc: OceanDesc, level: Level) -> Result<Self, OceanError> {
-        let base = Arc::new(ModeSet::new(desc, level)?);
+        Ok(Self::of_modes(Arc::new(ModeSet::new(desc, level)?)))
+    }
+
+    /// The sea of these modes at time 0.
+    pub(crate) fn of_modes(base: Arc<ModeSet>) -> Self {
         let moment = Parts::Alone(&base).moment(0.0);
         let source = Source { first: Arc::clone(&base), second: None, moment };
         let layers = layers(&source);
         let shape = shape(&base);
         let segments = Vec::new();
-        Ok(Self { base, segments, layers, shape, time_set: 0.0, moment, revision: 1, map: None, origin: DVec2::ZERO })
+        Self { base, segments, layers, shape, time_set: 0.0, moment, revision: 1, map: None, origin: DVec2::ZERO }
     }
 
     /// What was changed in the description or left out.

@@ -4,12 +4,13 @@
 //! to the grid it disturbs. Bodies do not see each other: collisions are the physics engine's.
 
 use floating_body::{
-    Body, BodyState, Controls, Displacement, Explanation, MooringLine, Radiation, Sampling, TextureKernel, Textures,
-    Wrench,
+    Arena, Body, BodyDesc, BodySnapshot, BodyState, Controls, Displacement, Explanation, MooringLine, Radiation,
+    Sampling, TextureKernel, Textures, Wrench,
 };
+use std::sync::Arc;
+
 use glam::{Quat, Vec2, Vec3};
 use rayon::prelude::*;
-use slotmap::SlotMap;
 use wave_grid::{Pattern, PatternKernel, Scheme, Source};
 
 use crate::cpu::body_water::BodyWater;
@@ -27,6 +28,7 @@ const TELEPORT: f32 = 5.0;
 
 /// Where a hull's mesh is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
     /// Local position of the hull's own origin (not of the centre of mass), metres.
     pub position: Vec3,
@@ -53,8 +55,43 @@ impl Pose {
     }
 }
 
+/// A body's description, shared with snapshots.
+#[derive(Debug)]
+pub(crate) struct Kind {
+    pub(crate) desc: BodyDesc,
+    /// Its digest, once asked for.
+    #[cfg(feature = "serde")]
+    pub(crate) digest: std::sync::OnceLock<u64>,
+}
+
+impl Kind {
+    pub(crate) fn new(desc: BodyDesc) -> Self {
+        Self {
+            desc,
+            #[cfg(feature = "serde")]
+            digest: std::sync::OnceLock::new(),
+        }
+    }
+}
+
+/// What of a body changes from tick to tick.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct BodyMoment {
+    id: BodyId,
+    body: BodySnapshot,
+    controls: Controls,
+    homes: Homes,
+    active: bool,
+    wants: Wants,
+    wrench: Wrench,
+    previous: Option<Pose>,
+}
+
 pub(crate) struct Entry {
     id: BodyId,
+    /// What it was made from.
+    kind: Arc<Kind>,
     body: Body,
     controls: Controls,
     /// The grid that it makes waves in.
@@ -85,6 +122,22 @@ fn pattern(textures: &Textures) -> Option<Box<Pattern>> {
 }
 
 impl Entry {
+    fn new(id: BodyId, body: Body, kind: Arc<Kind>) -> Self {
+        Self {
+            id,
+            kind,
+            body,
+            controls: Controls::default(),
+            homes: Homes::default(),
+            active: false,
+            wants: Wants::State,
+            wrench: Wrench::default(),
+            previous: None,
+            displaced: Vec::new(),
+            pattern: None,
+        }
+    }
+
     /// Has its textures fit the grid that is its home, if that carries any.
     fn fit(&mut self, grids: &Grids) {
         if !self.radiates() {
@@ -117,25 +170,15 @@ pub(crate) enum Reads {
 
 #[derive(Default)]
 pub(crate) struct Bodies {
-    index: SlotMap<BodyId, usize>,
+    index: Arena<BodyId, usize>,
     list: Vec<Entry>,
 }
 
 impl Bodies {
     pub(crate) fn insert(&mut self, body: Body) -> BodyId {
         let id = self.index.insert(self.list.len());
-        self.list.push(Entry {
-            id,
-            body,
-            controls: Controls::default(),
-            homes: Homes::default(),
-            active: false,
-            wants: Wants::State,
-            wrench: Wrench::default(),
-            previous: None,
-            displaced: Vec::new(),
-            pattern: None,
-        });
+        let kind = Arc::new(Kind::new(body.desc().clone()));
+        self.list.push(Entry::new(id, body, kind));
         id
     }
 
@@ -312,5 +355,99 @@ impl Bodies {
             };
             store.write(entry.id, motion);
         }
+    }
+}
+
+/// All bodies at a moment.
+#[derive(Debug, Clone)]
+pub(crate) struct BodiesMoment {
+    pub(crate) index: Arena<BodyId, usize>,
+    /// Of each body, as the next.
+    pub(crate) kinds: Vec<Arc<Kind>>,
+    pub(crate) bodies: Vec<BodyMoment>,
+}
+
+impl Entry {
+    fn moment(&self) -> BodyMoment {
+        BodyMoment {
+            id: self.id,
+            body: self.body.snapshot(),
+            controls: self.controls,
+            homes: self.homes.clone(),
+            active: self.active,
+            wants: self.wants,
+            wrench: self.wrench,
+            previous: self.previous,
+        }
+    }
+
+    fn restore(&mut self, moment: &BodyMoment) -> Result<(), OpenWaterError> {
+        let BodyMoment { id, body, controls, homes, active, wants, wrench, previous } = moment;
+        let fitted = self.body.fitted_cell();
+        self.body.restore(body)?;
+        if self.body.fitted_cell() != fitted {
+            self.pattern = self.body.textures().and_then(pattern);
+        }
+        (self.id, self.controls, self.homes) = (*id, *controls, homes.clone());
+        (self.active, self.wants, self.wrench, self.previous) = (*active, *wants, *wrench, *previous);
+        self.displaced.clear();
+        Ok(())
+    }
+}
+
+impl Bodies {
+    pub(crate) fn moment(&self) -> BodiesMoment {
+        BodiesMoment {
+            index: self.index.clone(),
+            kinds: self.list.iter().map(|entry| Arc::clone(&entry.kind)).collect(),
+            bodies: self.list.iter().map(Entry::moment).collect(),
+        }
+    }
+
+    /// Calls `f` with each body's description and what changes of it.
+    #[cfg(feature = "serde")]
+    pub(crate) fn each_moment(&self, mut f: impl FnMut(&Kind, BodyMoment)) {
+        self.list.iter().for_each(|entry| f(&entry.kind, entry.moment()));
+    }
+
+    #[cfg(feature = "serde")]
+    pub(crate) fn index(&self) -> &Arena<BodyId, usize> {
+        &self.index
+    }
+
+    /// All bodies as they were. Those that are still there are taken from `self`, and go back; the others are made anew.
+    pub(crate) fn restored(&mut self, moment: &BodiesMoment) -> Result<Self, OpenWaterError> {
+        let BodiesMoment { index, kinds, bodies } = moment;
+        let fits = index.len() == bodies.len()
+            && kinds.len() == bodies.len()
+            && bodies.iter().enumerate().all(|(at, body)| index.get(body.id) == Some(&at));
+        if !fits {
+            let value = bodies.len() as f64;
+            return Err(OpenWaterError::InvalidValue { field: "snapshot: bodies", value, bound: "one of each handle" });
+        }
+        // Nothing is taken before all that is new could be made.
+        let known = |kind: &Arc<Kind>, id: BodyId| self.get(id).is_some_and(|entry| Arc::ptr_eq(&entry.kind, kind));
+        let mut list = Vec::with_capacity(bodies.len());
+        for (kind, moment) in kinds.iter().zip(bodies) {
+            let mut entry = match known(kind, moment.id) {
+                true => None,
+                false => Some(Entry::new(moment.id, Body::new(kind.desc.clone())?, Arc::clone(kind))),
+            };
+            if let Some(entry) = &mut entry {
+                entry.restore(moment)?;
+            }
+            list.push(entry);
+        }
+        let mut own: Vec<_> = std::mem::take(&mut self.list).into_iter().map(Some).collect();
+        let mut restored = Self { index: index.clone(), list: Vec::with_capacity(bodies.len()) };
+        for (entry, moment) in list.into_iter().zip(bodies) {
+            if let Some(entry) = entry {
+                restored.list.push(entry);
+            } else if let Some(mut entry) = self.index.get(moment.id).and_then(|at| own[*at].take()) {
+                entry.restore(moment)?;
+                restored.list.push(entry);
+            }
+        }
+        Ok(restored)
     }
 }

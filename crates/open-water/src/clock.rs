@@ -5,6 +5,7 @@
 
 /// One fixed step of the whole water, to be handed to [`OpenWater::tick`](crate::OpenWater::tick).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tick {
     /// Number of this tick since the start; the first is 1.
     pub index: u64,
@@ -63,6 +64,18 @@ pub(crate) struct Clock {
 impl Clock {
     pub(crate) fn new(dt: f32, max_ticks: u32) -> Self {
         Self { dt, max_ticks, due: 0, rest: 0.0, alpha: 1.0 }
+    }
+
+    /// The clock of a water of these ticks that has run `tick` of them. Time not yet turned into ticks stays.
+    pub(crate) fn resume(&mut self, dt: f32, max_ticks: u32, tick: u64) {
+        (self.dt, self.max_ticks, self.due) = (dt, max_ticks, tick);
+        self.rest = self.rest.min(f64::from(dt));
+    }
+
+    /// The ticks after number `run` up to number `tick`, whatever the time.
+    pub(crate) fn until(&mut self, run: u64, tick: u64) -> Ticks {
+        self.due = tick.max(run);
+        Ticks { next: run, end: self.due, dt: self.dt, alpha: self.alpha, dropped_secs: 0.0 }
     }
 
     pub(crate) fn dt(&self) -> f32 {

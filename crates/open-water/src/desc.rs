@@ -9,6 +9,7 @@ use crate::{Follow, GridId, OpenWaterError};
 
 /// Describes an [`OpenWater`](crate::OpenWater).
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OpenWaterDesc {
     /// The ambient sea; without partitions it is flat calm and costs nothing.
     pub sea: SeaState,
@@ -67,6 +68,7 @@ pub(crate) fn check_wind(wind: Vec2) -> Result<(), OpenWaterError> {
 
 /// Where a grid is stepped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum GridHome {
     /// On the CPU: bodies feel it at once, and what is drawn is what they feel.
     #[default]
@@ -78,6 +80,7 @@ pub enum GridHome {
 
 /// Describes an interactive grid.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GridDesc {
     /// What the window stays around.
     pub follow: Follow,
@@ -95,6 +98,7 @@ pub struct GridDesc {
     /// period do. Water waves have no use for it.
     pub wave_speed: f32,
     /// Depth that water waves feel where there is no [`Land`](crate::Land), metres, 0.01 and more, infinite too.
+    #[cfg_attr(feature = "serde", serde(with = "floating_body::endless"))]
     pub depth: f32,
     /// What is at the edge of its window. One with [`Border::Periodic`] is for detail such as rain: it repeats over the whole
     /// plane, fades from 30 to 60 m from the eye ([`OpenWater::look`](crate::OpenWater::look)), or from the world's origin
@@ -140,6 +144,7 @@ impl GridDesc {
 /// Quality in one word. What each costs and leaves out on a machine: `frame_presets` of the evidence. Of the slopes of the
 /// default sea, which make its glitter, arrays of 128 texels leave a quarter to roughness, of 256 a sixth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Preset {
     /// Integrated graphics and busy servers: three cascades of 128, a grid of 192 cells of 50 cm.
     Low,
@@ -220,6 +225,7 @@ impl Preset {
 
 /// Who looks at the water: decides what is worth drawing, never what is simulated.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct View {
     /// The eye's local position, metres.
     pub eye: Vec3,

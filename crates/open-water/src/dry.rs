@@ -65,6 +65,13 @@ impl DryHulls {
         }
     }
 
+    /// Lets go of all others.
+    pub(crate) fn keep(&mut self, keep: impl Fn(BodyId) -> bool) {
+        for body in self.list.iter().map(|dry| dry.body).filter(|body| !keep(*body)).collect::<Vec<_>>() {
+            self.set(body, None);
+        }
+    }
+
     #[cfg(feature = "gpu")]
     pub(crate) fn get(&self, body: BodyId) -> Option<&Dry> {
         self.list.iter().find(|dry| dry.body == body)

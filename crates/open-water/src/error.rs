@@ -91,6 +91,9 @@ pub enum OpenWaterError {
     /// The handle's mooring was removed, or its body was, or it is another water's.
     #[error("mooring {0:?} does not exist: it was removed, or is another water's; forget its handle")]
     UnknownMooring(MooringId),
+    /// The snapshot was made on other land.
+    #[error("the snapshot was made on other land: give this water the same by `OpenWater::set_land` before `restore`")]
+    OtherLand,
     /// Ticks must be run in the order in which `advance` gave them.
     #[error("tick {found} was given, but tick {expected} is due: run the ticks of `advance` in order, each once")]
     TickOutOfOrder {

@@ -3,9 +3,8 @@
 //! The hydrodynamics are `floating-body`'s. Here a fleet is given the water that it sees, and what its pieces displaced is
 //! handed to the grids that they are in.
 
-use floating_body::{Displacement, Fleet, FleetDesc, PieceId, Radiation};
+use floating_body::{Arena, Displacement, Fleet, FleetDesc, PieceId, Radiation};
 use glam::{Vec2, Vec3};
-use slotmap::SlotMap;
 use wave_grid::Source;
 
 use crate::bodies::Pose;
@@ -18,7 +17,7 @@ use crate::{GridId, OpenWaterError};
 
 #[derive(Default)]
 pub(crate) struct Fleets {
-    list: SlotMap<FleetId, Fleet>,
+    pub(crate) list: Arena<FleetId, Fleet>,
     /// Scratch.
     displaced: Vec<Displacement>,
 }
@@ -26,25 +25,25 @@ pub(crate) struct Fleets {
 impl Fleets {
     /// Radius of the smallest pieces, metres; `None` without pieces.
     pub(crate) fn smallest(&self) -> Option<f32> {
-        let with_pieces = self.list.values().filter(|fleet| !fleet.is_empty());
+        let with_pieces = self.list.iter().map(|(_, fleet)| fleet).filter(|fleet| !fleet.is_empty());
         with_pieces.map(|fleet| fleet.template().bounding_radius()).min_by(f32::total_cmp)
     }
 
     /// Moves all pieces by one tick.
     pub(crate) fn step(&mut self, dt: f32, eye: Option<Vec3>, water: Composite) {
-        for fleet in self.list.values_mut() {
+        for (_, fleet) in self.list.iter_mut() {
             fleet.look(eye);
             fleet.step(dt, &FleetWater { water, by_grid: by_grid(fleet) });
         }
     }
 
     pub(crate) fn rebase(&mut self, offset: Vec2) {
-        self.list.values_mut().for_each(|fleet| fleet.rebase(offset));
+        self.list.iter_mut().for_each(|(_, fleet)| fleet.rebase(offset));
     }
 
     /// Hands what the pieces displaced to the finest grid that each is in, in a fixed order.
     pub(crate) fn disturb(&mut self, grids: &mut Grids) {
-        for fleet in self.list.values().filter(|fleet| by_grid(fleet)) {
+        for (_, fleet) in self.list.iter().filter(|(_, fleet)| by_grid(fleet)) {
             self.displaced.clear();
             fleet.displacements(&mut self.displaced);
             for d in &self.displaced {

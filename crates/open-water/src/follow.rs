@@ -8,6 +8,7 @@ use crate::{BodyId, GridId, OpenWaterError};
 
 /// What a grid's window stays around.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Follow {
     /// A body; the window stays where it is when the body is gone.
     Body(BodyId),
@@ -22,6 +23,7 @@ pub enum Follow {
 /// How a camera looks at the water: where grids with [`Follow::View`] go and what is near enough to matter. The game says
 /// it itself, as drawing never changes what is simulated.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Look {
     /// The eye's local position, metres.
     pub eye: Vec3,
@@ -41,7 +43,7 @@ const FLATTEST: f64 = 1e-4;
 const ACROSS: f64 = 1.0 / 3.0;
 
 impl Look {
-    fn is_sane(&self) -> bool {
+    pub(crate) fn is_sane(&self) -> bool {
         let [fov, aspect] = [self.fov_y, self.aspect];
         self.eye.is_finite()
             && self.direction.is_finite()

@@ -4,9 +4,9 @@
 
 use std::sync::Arc;
 
+use floating_body::Arena;
 use glam::{DVec2, Vec2, Vec3};
 use ocean_spectrum::Ocean;
-use slotmap::SlotMap;
 use wave_grid::{Border, GridSample, Hole, Medium, Source, WaveGrid, Window};
 
 use crate::follow::Look;
@@ -264,8 +264,8 @@ impl Grid {
 /// All grids of a water, in the order in which they were added.
 #[derive(Default)]
 pub(crate) struct Grids {
-    ids: SlotMap<GridId, ()>,
-    list: Vec<Grid>,
+    pub(crate) ids: Arena<GridId, ()>,
+    pub(crate) list: Vec<Grid>,
     /// A grid has holes.
     pub(crate) holed: bool,
 }
@@ -364,7 +364,7 @@ impl Grids {
     }
 
     /// Gives every grid its place in the pool.
-    fn place(&mut self) {
+    pub(crate) fn place(&mut self) {
         let mut base = 0;
         for grid in &mut self.list {
             grid.base = base;

@@ -25,6 +25,7 @@ const MARGIN: f64 = 6.0;
 
 /// A body's home, the one to come, and the shares of grids that count as its own.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Homes {
     now: Option<GridId>,
     next: Option<GridId>,

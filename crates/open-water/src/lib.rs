@@ -53,6 +53,7 @@ pub mod rapier;
 mod rebase;
 mod sea;
 mod shore;
+mod snapshot;
 mod store;
 mod stores;
 mod wakes;
@@ -70,6 +71,9 @@ pub use grids::MAX_GRIDS;
 pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shelter};
 pub use moorings::Mooring;
 pub use plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
+#[cfg(feature = "serde")]
+pub use snapshot::SnapshotError;
+pub use snapshot::WaterSnapshot;
 pub use store::{BodyId, BodyMotion, BodyStates, BodyStore, FleetId, GridId, MooringId, Wants};
 pub use stores::{BodySlices, SliceStore, Stores};
 pub use wakes::{Wake, WakesDesc};

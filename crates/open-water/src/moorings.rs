@@ -2,9 +2,8 @@
 //!
 //! The pull itself is `floating-body`'s, in every sub-step of the body. A mooring goes with its body.
 
-use floating_body::MooringLine;
+use floating_body::{Arena, MooringLine};
 use glam::Vec2;
-use slotmap::SlotMap;
 
 use crate::OpenWaterError;
 use crate::bodies::Bodies;
@@ -13,6 +12,7 @@ use crate::store::{BodyId, MooringId};
 
 /// A body made fast with a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mooring {
     /// Which body.
     pub body: BodyId,
@@ -20,8 +20,9 @@ pub struct Mooring {
     pub line: MooringLine,
 }
 
-#[derive(Default)]
-pub(crate) struct Moorings(SlotMap<MooringId, Mooring>);
+#[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Moorings(Arena<MooringId, Mooring>);
 
 impl Moorings {
     pub(crate) fn add(&mut self, mooring: Mooring, bodies: &mut Bodies) -> Result<MooringId, OpenWaterError> {
@@ -55,7 +56,7 @@ impl Moorings {
     /// Takes over where anchors have dragged to.
     fn follow(&mut self, body: BodyId, bodies: &Bodies) {
         let Ok(found) = bodies.body(body) else { return };
-        let mine = self.0.values_mut().filter(|mooring| mooring.body == body);
+        let mine = self.0.iter_mut().map(|(_, mooring)| mooring).filter(|mooring| mooring.body == body);
         for (mooring, line) in mine.zip(found.moorings()) {
             mooring.line.anchor = line.anchor;
         }
@@ -63,7 +64,7 @@ impl Moorings {
 
     /// Anchors stay where they are in the world, the local origin moves by `offset`.
     pub(crate) fn rebase(&mut self, offset: Vec2) {
-        self.0.values_mut().for_each(|mooring| mooring.line.anchor -= lifted(offset));
+        self.0.iter_mut().for_each(|(_, mooring)| mooring.line.anchor -= lifted(offset));
     }
 
     fn of(&self, body: BodyId) -> impl Iterator<Item = (MooringId, MooringLine)> {

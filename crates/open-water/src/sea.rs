@@ -5,8 +5,7 @@
 //! tick with which it begins takes it over, and waits for it only if it is not there. So what comes of it does not depend
 //! on how fast that thread is.
 
-use std::sync::OnceLock;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, OnceLock};
 
 use ocean_spectrum::{CascadeDesc, Ocean, OceanDesc, OceanError, SeaState};
 
@@ -21,20 +20,43 @@ pub(crate) const LEAD: f64 = 0.5;
 const QUALITY: f32 = 2.0;
 
 /// A change that has not begun.
+#[derive(Clone)]
 pub(crate) struct Coming {
+    pub(crate) order: Order,
+    /// The revision of the shore that it was made for.
+    revision: u64,
+    /// Snapshots share it.
+    made: Arc<OnceLock<Result<Made, OceanError>>>,
+}
+
+/// When a change begins and how long it takes. What the sea becomes says the water's description.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Order {
+    /// When it was asked for, seconds.
+    asked: f64,
     /// The last tick before it.
     tick: u64,
     start: f64,
     seconds: f64,
-    /// The revision of the shore that it was made for.
-    revision: u64,
-    made: Receiver<Result<Made, OceanError>>,
+}
+
+impl Coming {
+    /// Whether its maps are of the land at this revision.
+    pub(crate) fn is_for(&self, revision: u64) -> bool {
+        self.revision == revision
+    }
+
+    /// The same, whose maps are of this revision's land.
+    pub(crate) fn at(&self, revision: u64) -> Self {
+        Self { revision, ..self.clone() }
+    }
 }
 
 /// What was made for it: the sea, and the land's maps where no fed grid is needed for them.
 struct Made {
     ocean: Ocean,
-    baked: Option<Baked>,
+    baked: Option<Arc<Baked>>,
 }
 
 /// Runs a job on a thread of its own, so that the ticks' threads are free.
@@ -115,37 +137,45 @@ impl OpenWater {
             return Ok(());
         };
         ocean.check_change(&desc.ocean(), start, seconds)?;
-        let (sender, made) = channel();
-        let (mut changed, of) = (ocean.clone(), desc.ocean());
+        self.desc = desc;
+        self.order_sea(Order { asked: self.time(), tick, start, seconds });
+        Ok(())
+    }
+
+    /// Has the sea of the description made.
+    pub(crate) fn order_sea(&mut self, order: Order) {
+        let Some(ocean) = &self.ocean else { return };
+        let made = Arc::new(OnceLock::new());
+        let (mut changed, of, filled) = (ocean.clone(), self.desc.ocean(), Arc::clone(&made));
+        // So that the same changes are remembered, whenever it is made again.
+        changed.set_time(order.asked);
         let fed = self.grids.iter().any(|grid| grid.fed().is_some());
         let terrain = self.shore.terrain.clone().filter(|_| !fed);
         beside(move || {
-            let made = changed.change_to(of, start, seconds).map(|()| {
-                let baked = terrain.map(|terrain| bake(&terrain, Some(&changed.settled()), &[]));
+            let made = changed.change_to(of, order.start, order.seconds).map(|()| {
+                let baked = terrain.map(|terrain| Arc::new(bake(&terrain, Some(&changed.settled()), &[])));
                 Made { ocean: changed, baked }
             });
-            // Nobody waits for it when the water is gone.
-            let _ = sender.send(made);
+            // The only one who fills it.
+            let _ = filled.set(made);
         });
-        self.coming = Some(Coming { tick, start, seconds, revision: self.shore.revision, made });
-        self.desc = desc;
-        Ok(())
+        self.coming = Some(Coming { order, revision: self.shore.revision, made });
     }
 
     /// Takes over a change that is due, or, `now`, one that is yet to come.
     fn take_sea(&mut self, now: bool) -> Result<(), OpenWaterError> {
         let tick = self.tick;
-        let Some(coming) = self.coming.take_if(|coming| now || coming.tick <= tick) else { return Ok(()) };
-        let (Some(ocean), Ok(made)) = (&mut self.ocean, coming.made.recv()) else { return Ok(()) };
-        let Made { ocean: changed, baked } = made?;
+        let Some(coming) = self.coming.take_if(|coming| now || coming.order.tick <= tick) else { return Ok(()) };
+        let Some(ocean) = &mut self.ocean else { return Ok(()) };
+        let Made { ocean: changed, baked } = coming.made.wait().as_ref().map_err(Clone::clone)?;
         ocean.adopt(changed);
         if self.shore.terrain.is_some() {
-            let to = match baked.filter(|_| coming.revision == self.shore.revision) {
+            let to = match baked.clone().filter(|_| coming.revision == self.shore.revision) {
                 Some(baked) => baked,
-                None => self.bake_shore(),
+                None => Arc::new(self.bake_shore()),
             };
             let from = self.shore.baked.clone();
-            let Coming { start, seconds, .. } = coming;
+            let Order { start, seconds, .. } = coming.order;
             let start = if self.waits_for_cascades() { f64::INFINITY } else { start };
             self.shore.turning = Some(Turning { from, to, after: None, start, seconds, shown: 0.0 });
         }
@@ -161,7 +191,7 @@ impl OpenWater {
             && let Some(share) = turning.next(time)
         {
             turning.shown = share;
-            let baked = turning.from.towards(&turning.to, share);
+            let baked = Arc::new(turning.from.towards(&turning.to, share));
             if share == 1.0 && turning.after.is_none() {
                 self.shore.turning = None;
             }
@@ -183,7 +213,7 @@ impl OpenWater {
         let shown = match (&places, &mut self.shore.turning) {
             (Some(places), Some(turning)) => {
                 let plain = turning.to.clone();
-                let [from, to] = Baked::placed([&turning.from, &turning.to], places);
+                let [from, to] = Baked::placed([&turning.from, &turning.to], places).map(Arc::new);
                 (turning.from, turning.to, turning.after) = (from, to, Some(plain));
                 (turning.start, turning.shown) = (self.tick as f64 * f64::from(self.clock.dt()), 0.0);
                 Some(turning.from.clone())
@@ -212,12 +242,12 @@ impl OpenWater {
     }
 
     /// Maps of the sea as it will be, for the cascades of now.
-    pub(crate) fn maps_of_now(&mut self, baked: Baked) -> Baked {
+    pub(crate) fn maps_of_now(&mut self, baked: Arc<Baked>) -> Arc<Baked> {
         self.shore.turning = None;
         let places = self.ocean.as_ref().and_then(Ocean::cascade_places).map(<[_]>::to_vec);
         self.shore.places = places;
         let Some(places) = &self.shore.places else { return baked };
-        let [_, now] = Baked::placed([&baked; 2], places);
+        let now = Arc::new(Baked::placed([&*baked; 2], places)[1].clone());
         let (from, to, after) = (now.clone(), now.clone(), Some(baked));
         let start = self.tick as f64 * f64::from(self.clock.dt());
         self.shore.turning = Some(Turning { from, to, after, start, seconds: 0.0, shown: 1.0 });
@@ -225,7 +255,7 @@ impl OpenWater {
     }
 
     /// Hands maps to whoever reads them, fed grids too.
-    fn show_maps(&mut self, baked: Baked) -> Result<(), OpenWaterError> {
+    fn show_maps(&mut self, baked: Arc<Baked>) -> Result<(), OpenWaterError> {
         if let Some(terrain) = &self.shore.terrain {
             let feedings = self.grids.iter_mut().filter_map(|grid| grid.feeding.as_mut());
             feedings.for_each(|feeding| feeding.weigh(terrain, &baked));
@@ -235,9 +265,7 @@ impl OpenWater {
 
     /// Prepares the edges of fed grids for the sea's modes as they are now.
     fn feed_again(&mut self) -> Result<(), OpenWaterError> {
-        let baked = std::mem::take(&mut self.shore.baked);
-        let fed = self.feed_grids(&baked);
-        self.shore.baked = baked;
-        fed
+        let baked = Arc::clone(&self.shore.baked);
+        self.feed_grids(&baked)
     }
 }

@@ -114,7 +114,7 @@ impl OpenWater {
             gpu.remote.set_medium(medium);
         }
         self.shore.terrain = terrain;
-        let baked = self.bake_shore();
+        let baked = Arc::new(self.bake_shore());
         let baked = self.maps_of_now(baked);
         self.feed_grids(&baked)?;
         self.show_shore(baked)
@@ -142,7 +142,7 @@ impl OpenWater {
     }
 
     /// Hands maps to whoever reads them.
-    pub(crate) fn show_shore(&mut self, baked: Baked) -> Result<(), OpenWaterError> {
+    pub(crate) fn show_shore(&mut self, baked: Arc<Baked>) -> Result<(), OpenWaterError> {
         let terrain = &self.shore.terrain;
         if let Some(ocean) = &mut self.ocean {
             let map = terrain.as_ref().map(|t| {

@@ -20,6 +20,7 @@ new_key_type! {
 
 /// What a store wants to be told of a body's tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Wants {
     /// Where the body is at the end of the tick: the water moves it.
     #[default]

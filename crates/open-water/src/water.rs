@@ -21,6 +21,7 @@ use crate::wakes::Wakes;
 
 /// What went out of the ordinary since the start; nothing of it is an error.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reports {
     /// Ticks run.
     pub ticks: u64,

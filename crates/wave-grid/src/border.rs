@@ -10,6 +10,7 @@ use crate::state::State;
 
 /// What is at the edge of a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Border {
     /// A perfectly matched layer: what leaves is gone.
     Absorbing {

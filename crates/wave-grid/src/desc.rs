@@ -16,6 +16,7 @@ pub(crate) const GRAVITY: f64 = 9.81;
 /// The first two are the wave equation, explicit, in flux form, second order: all waves travel at one speed, so a boat draws
 /// a Mach wedge. The other two are water waves: long ones outrun short ones, and a boat draws Kelvin's wedge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Scheme {
     /// Isotropic 9-point flux form. At `a = .7` the phase velocity errs by 0.8 % at 8 cells per wave, the same in all directions to 0.03 %.
     #[default]
@@ -66,6 +67,7 @@ impl Scheme {
 
 /// What a grid is made of. Checked by [`crate::WaveGrid::new`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GridDesc {
     /// Cells along x and z, the border layer included: 48 to 4096 each. Default 256 x 256.
     pub cells: [u32; 2],
@@ -76,6 +78,7 @@ pub struct GridDesc {
     pub wave_speed: f32,
     /// Depth of the water where no [`crate::Medium`] tells it, metres: 0.01 and more. Default infinite. The wave equation
     /// has no use for it.
+    #[cfg_attr(feature = "serde", serde(with = "crate::values::endless"))]
     pub depth: f32,
     /// Discretisation. Default nine-point.
     pub scheme: Scheme,

@@ -13,6 +13,7 @@ const NONE: f64 = 1e-3;
 
 /// Velocity of a window.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Drift {
     /// Where it stood, cells.
     at: Option<[f64; 2]>,
@@ -25,6 +26,11 @@ pub(crate) struct Drift {
 }
 
 impl Drift {
+    pub(crate) fn is_finite(&self) -> bool {
+        let [at, last, beta, held] = [self.at.unwrap_or_default(), self.last, self.beta, self.held];
+        [at, last, beta, held].as_flattened().iter().all(|value| value.is_finite())
+    }
+
     /// Once a tick: where the window stands now.
     pub(crate) fn note(&mut self, place: &Place, stepping: &Stepping) {
         let at = [0, 1].map(|k| place.window.corner[k] as f64 + place.lean[k]);

@@ -15,6 +15,7 @@ use crate::{Stepping, Window, cpu::tiles::Tiles};
 
 /// Sides of a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Edges {
     /// The side of least x.
     pub low_x: bool,

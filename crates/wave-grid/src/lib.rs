@@ -59,6 +59,8 @@ mod start;
 mod state;
 mod tick;
 mod train;
+#[cfg(feature = "serde")]
+mod values;
 mod window;
 
 pub use border::Border;

@@ -18,6 +18,7 @@ const FARTHEST: f64 = 1e14;
 
 /// A rectangle of world cells. Cell (i, j) is centred at world ((corner.x + i + .5) h.x, (corner.z + j + .5) h.z).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Window {
     /// World index of cell (0, 0).
     pub corner: [i64; 2],
@@ -69,6 +70,7 @@ pub(crate) enum Move {
 
 /// A window with the place it leans to.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Place {
     pub(crate) window: Window,
     /// Target minus middle of the window, cells, within the dead-band.
@@ -109,6 +111,15 @@ impl Place {
     /// Cells after which a window that repeats does.
     pub(crate) fn period(&self) -> DVec2 {
         DVec2::new(f64::from(self.window.cells[0]), f64::from(self.window.cells[1])) - 2.0
+    }
+
+    /// Whether it is a place for the same window as another, and none that is absurd.
+    pub(crate) fn is_one_of(&self, other: &Self) -> bool {
+        let Self { window, lean, interior, border, fed: _, nested: _ } = self;
+        let near = window.corner.iter().all(|corner| corner.unsigned_abs() <= FARTHEST as u64);
+        near && lean.iter().all(|lean| lean.is_finite())
+            && (window.cells, window.cell_size) == (other.window.cells, other.window.cell_size)
+            && (interior, border) == (&other.interior, &other.border)
     }
 
     fn stray(&self, target: DVec2) -> [f64; 2] {

@@ -85,6 +85,15 @@ impl Clipping {
         }))
     }
 
+    /// Share and distance.
+    pub(super) fn seen(&self) -> (f32, f32) {
+        (self.share, self.distance)
+    }
+
+    pub(super) fn see(&mut self, (share, distance): (f32, f32)) {
+        (self.share, self.distance) = (share, distance);
+    }
+
     /// Moves the share towards what the distance asks for; at once after a teleport.
     fn attend(&mut self, dt: f32, restart: bool) {
         if self.near == f32::INFINITY {

@@ -57,6 +57,11 @@ impl Body {
         had || self.radiator.is_some()
     }
 
+    /// Cells for which textures were asked for last, m; 0 before.
+    pub fn fitted_cell(&self) -> f32 {
+        self.fitted_for
+    }
+
     /// The textures of the last fit.
     pub fn textures(&self) -> Option<&Textures> {
         self.radiator.as_ref().map(|r| &r.textures)
@@ -65,7 +70,7 @@ impl Body {
     /// What the last step changed in a grid that carries the body's textures, to be added there before it ticks. `None`
     /// when the step was not made on one: then it is in [`Body::displacements`].
     pub fn imprints(&self) -> Option<[Imprint; 2]> {
-        self.radiator.as_ref().filter(|r| r.on).map(|r| r.imprints())
+        self.radiator.as_ref().filter(|r| r.motion.on).map(|r| r.imprints())
     }
 
     /// Asks the home grid. Returns whether it carries the textures.
@@ -74,11 +79,11 @@ impl Body {
         let (at, heading) = Radiator::spot(pose);
         let heads = if wanted { water.radiated(at, heading) } else { None };
         // What was told elsewhere is not taken back here.
-        self.restart |= heads.is_some() != radiator.on;
-        radiator.on = heads.is_some();
+        self.restart |= heads.is_some() != radiator.motion.on;
+        radiator.motion.on = heads.is_some();
         let heads = Vec3::from(heads.unwrap_or_default());
-        radiator.heads = if heads.is_finite() { heads } else { Vec3::ZERO };
-        radiator.on
+        radiator.motion.heads = if heads.is_finite() { heads } else { Vec3::ZERO };
+        radiator.motion.on
     }
 
     /// Added mass and damping that act in a sub-step of `dt` s, and the push of the grid's waves through the textures, or of
@@ -87,7 +92,7 @@ impl Body {
     pub(super) fn radiation(&self, dt: f32, afloat: f32) -> (Coefficients, Vec3) {
         let own = self.desc.coefficients;
         match &self.radiator {
-            Some(radiator) if radiator.on => {
+            Some(radiator) if radiator.motion.on => {
                 let (mut c, textures) = (own, &radiator.textures);
                 let [heave, roll, pitch] = textures.left;
                 (c.added_mass.y, c.damping.y) = (heave, 0.0);
@@ -119,7 +124,7 @@ impl Body {
 
     /// Takes down the motion through the water in a sub-step: up in m/s, about the hull's x and z in rad/s.
     pub(super) fn remember(&mut self, motion: Vec3, dt: f32) {
-        let on_a_grid = self.radiates || self.radiator.as_ref().is_some_and(|r| r.on);
+        let on_a_grid = self.radiates || self.radiator.as_ref().is_some_and(|r| r.motion.on);
         if let Some(memory) = &mut self.memory {
             if on_a_grid { memory.forget() } else { memory.remember((motion * dt).to_array(), dt) }
         }
@@ -133,7 +138,7 @@ impl Body {
 
     pub(super) fn measure_textures(&mut self, pose: &Pose, age: f32, restart: bool) {
         let volume = self.told_volume();
-        let Some(radiator) = self.radiator.as_mut().filter(|r| r.on) else { return };
+        let Some(radiator) = self.radiator.as_mut().filter(|r| r.motion.on) else { return };
         let share = volume / self.waterline.volume;
         radiator.measure(&self.points, &self.waters, pose, age, share, restart);
     }

@@ -6,6 +6,7 @@ use super::LIMITS;
 
 /// Where a body is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BodyState {
     /// Centre of mass, local world, m.
     pub position: Vec3,
@@ -32,6 +33,7 @@ impl BodyState {
 
 /// A force through the centre of mass and a torque about it, world axes; weight is not in it.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Wrench {
     /// N.
     pub force: Vec3,

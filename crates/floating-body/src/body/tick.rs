@@ -54,6 +54,8 @@ impl Body {
         // An engine has contacts of its own.
         if scheme.ahead == 0.0 {
             self.solids.ask(water, &self.pose());
+        } else {
+            self.solids.near = false;
         }
         if self.restart {
             self.memory.iter_mut().for_each(|memory| memory.forget());

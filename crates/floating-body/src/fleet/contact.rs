@@ -18,6 +18,7 @@ use crate::{BodyError, GRAVITY, Hull, Touch, WaterSurface};
 
 /// How the pieces of a fleet keep apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SoftContact {
     /// Of the ball that a piece is to the others, m, 0.001 to 1000.
     pub radius: f32,

@@ -11,6 +11,7 @@ slotmap::new_key_type! {
 
 /// What a fleet is to be made of.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FleetDesc {
     /// Every piece. It must have no engine, memory, skin or slamming, and quality by points; [`BodyDesc::sampling`] is always a patch.
     pub body: BodyDesc,

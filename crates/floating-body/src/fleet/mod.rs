@@ -17,13 +17,15 @@ mod sleep;
 mod tell;
 mod template;
 mod tick;
+#[cfg(feature = "serde")]
+mod values;
 mod wet;
 
 use std::fmt;
+use std::sync::Arc;
 
 use fearless_simd::Level;
 use glam::{Quat, Vec2, Vec3};
-use slotmap::SlotMap;
 
 use self::contact::Crowd;
 pub use self::contact::SoftContact;
@@ -35,17 +37,19 @@ use self::sleep::Sleepers;
 use self::template::Template;
 use crate::body::{LIMITS, TELEPORT};
 use crate::rotation::{matrix, normalized};
-use crate::{Body, BodyError, BodyState, Displacement, Radiation, Sampling};
+use crate::{Arena, Body, BodyError, BodyState, Displacement, Radiation, Sampling};
 
 /// Where a piece is kept.
 #[derive(Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Place {
     Awake(usize),
     Riding(usize),
     Asleep { block: usize, at: usize },
 }
 
-/// Many bodies of one description. Made from a [`FleetDesc`], moved by [`Fleet::step`].
+/// Many bodies of one description. Made from a [`FleetDesc`], moved by [`Fleet::step`]. A clone is this moment, to go back to; it
+/// shares what does not change.
 ///
 /// ```
 /// use floating_body::{Activity, BodyDesc, BodyError, BodyState, FlatWater, Fleet, FleetDesc, Hull};
@@ -65,11 +69,12 @@ enum Place {
 /// # Ok(())
 /// # }
 /// ```
+#[derive(Clone)]
 pub struct Fleet {
-    desc: FleetDesc,
-    body: Body,
-    template: Template,
-    index: SlotMap<PieceId, Place>,
+    desc: Arc<FleetDesc>,
+    body: Arc<Body>,
+    template: Arc<Template>,
+    index: Arena<PieceId, Place>,
     awake: Crew,
     riders: Vec<Rider>,
     sleepers: Sleepers,
@@ -101,10 +106,10 @@ impl Fleet {
         let body = Body::new(one)?;
         let radius = SoftContact::of(&body.desc().hull).radius;
         Ok(Self {
-            template: Template::new(&body),
-            body,
-            desc,
-            index: SlotMap::with_key(),
+            template: Arc::new(Template::new(&body)),
+            body: Arc::new(body),
+            desc: Arc::new(desc),
+            index: Arena::default(),
             awake: Crew::default(),
             riders: Vec::new(),
             sleepers: Sleepers::default(),

@@ -11,6 +11,7 @@ const TRUSTED: (f32, f32) = (0.15, 2.0);
 
 /// The plane of water under a piece, as it was read `age` s ago.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Plane {
     pub(super) water: LocalWater,
     /// Slope of the height without the home grid's waves.
@@ -23,6 +24,7 @@ pub(super) struct Plane {
 
 /// What a piece has told the water.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Told {
     pub(super) at: Vec2,
     /// m^3; negative if it has told nothing.
@@ -35,6 +37,7 @@ impl Told {
 
 /// All that a piece is.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Piece {
     pub(super) state: BodyState,
     /// Pose at the tick before.

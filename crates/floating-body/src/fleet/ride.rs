@@ -26,6 +26,7 @@ pub(super) fn refresh(awake: usize) -> usize {
 
 /// See the module.
 #[derive(Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Rider {
     pub(super) id: PieceId,
     /// As it was when it began, with what it has told the water.

@@ -16,6 +16,7 @@ const MOVED: (f32, f32, f32) = (0.01, 0.01, 0.02);
 
 /// Neighbours.
 #[derive(Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Block {
     pub(super) ids: Vec<PieceId>,
     pub(super) pieces: Vec<Piece>,
@@ -23,6 +24,7 @@ pub(super) struct Block {
 
 /// See the module.
 #[derive(Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Sleepers {
     /// Corners of the blocks: all that a tick on calm water reads.
     bounds: Vec<[Vec2; 2]>,
@@ -67,6 +69,20 @@ impl Block {
 }
 
 impl Sleepers {
+    #[cfg(feature = "serde")]
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether blocks and what is known of them fit.
+    #[cfg(feature = "serde")]
+    pub(super) fn hold_together(&self) -> bool {
+        let whole = |block: &Block| block.ids.len() == block.pieces.len() && block.ids.len() <= BLOCK;
+        self.bounds.len() == self.blocks.len()
+            && self.blocks.iter().all(whole)
+            && self.blocks.iter().map(|block| block.ids.len()).sum::<usize>() == self.count
+    }
+
     /// Takes those in who fell asleep. Returns the number of the first block that is new.
     pub(super) fn lay(&mut self, mut new: Vec<Sleeper>, reach: f32) -> usize {
         self.count += new.len();

@@ -13,6 +13,8 @@ pub(crate) mod shapes;
 mod solid;
 mod spans;
 mod topology;
+#[cfg(feature = "serde")]
+mod values;
 mod waterline;
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -32,6 +34,7 @@ use crate::{BodyError, ForcePoint};
 
 /// A triangle mesh in the hull's frame: vertices in m, three indices per triangle. May be unwelded.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TriMesh {
     /// Positions in m.
     pub vertices: Vec<Vec3>,

@@ -18,6 +18,7 @@ const WELD_SHARE: f64 = 1.0e-6;
 
 /// What to do with a mesh that has open edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Closure {
     /// Refuse it, naming the count of open edges.
     #[default]
@@ -207,7 +208,9 @@ fn cap(surface: &mut Surface, ring: &[u32]) {
         weight += a.distance(b);
     }
     let center = surface.vertices.len() as u32;
-    surface.vertices.push(if weight > 0.0 { sum / weight } else { surface.vertices[ring[0] as usize] });
+    let middle = if weight > 0.0 { sum / weight } else { surface.vertices[ring[0] as usize] };
+    // As exact as the mesh's own vertices, so that the closed mesh is the same hull.
+    surface.vertices.push(middle.as_vec3().as_dvec3());
     surface.triangles.extend(pairs().map(|(a, b)| [*b, *a, center]));
 }
 

@@ -21,17 +21,24 @@ const LEAST: f64 = 0.1;
 /// Ticks longer than so many intervals remember nothing.
 const LONGEST: f32 = 6.0;
 
-/// The past of one mode.
+/// One mode.
 #[derive(Clone, Debug)]
-struct Past {
+struct Remembering {
     /// Added mass or inertia at infinite frequency, kg or kg m^2.
     left: f32,
     /// Length of an interval in s.
     step: f32,
     /// K at multiples of `step`; the last is 0.
     kernel: Vec<f32>,
+    past: Past,
+}
+
+/// The past of a mode.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Past {
     /// How far the mode moved in each interval, the newest at `newest`.
-    past: Vec<f32>,
+    moves: Vec<f32>,
     newest: usize,
     /// Time since the newest interval ended, and how far the mode moved since.
     since: f32,
@@ -41,7 +48,7 @@ struct Past {
 /// Of heave, roll and pitch.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
-    modes: [Option<Past>; 3],
+    modes: [Option<Remembering>; 3],
 }
 
 /// What memory makes of a mode in a sub-step.
@@ -55,7 +62,7 @@ pub(crate) struct Recalled {
     pub(crate) force: f32,
 }
 
-impl Past {
+impl Remembering {
     fn of(a: &Afloat, index: usize, mode: &Mode) -> Option<Self> {
         let elements = line(a, index);
         let curve = Curve::new(a, mode, &elements, index)?;
@@ -80,11 +87,11 @@ impl Past {
         let sine = |i: usize| libm::sin(mode.natural * i as f64 * step);
         let swung: f64 = kernel.iter().enumerate().map(|(i, k)| k * sine(i)).sum();
         let left = (mode.added + swung * step / mode.natural).max(LEAST * mode.added);
-        let past = vec![0.0; kernel.len() - 1];
+        let past = Past { moves: vec![0.0; kernel.len() - 1], newest: 0, since: 0.0, moved: 0.0 };
         let kernel: Vec<f32> = kernel.iter().map(|k| *k as f32).collect();
         let sane = left.is_finite() && kernel.iter().all(|k| k.is_finite()) && kernel[0] > 0.0;
         let (left, step) = (left as f32, step as f32);
-        sane.then_some(Self { left, step, kernel, past, newest: 0, since: 0.0, moved: 0.0 })
+        sane.then_some(Self { left, step, kernel, past })
     }
 
     /// K at `x` intervals.
@@ -97,14 +104,15 @@ impl Past {
 
     /// For a sub-step of `dt` s, the force as it is half way.
     fn recall(&self, dt: f32) -> Recalled {
-        let recent = (self.since + 0.5 * dt) / self.step;
-        let mut force = self.moved * self.kernel_at(0.5 * (self.since + dt) / self.step);
+        let Past { moves, newest, since, moved } = &self.past;
+        let recent = (since + 0.5 * dt) / self.step;
+        let mut force = moved * self.kernel_at(0.5 * (since + dt) / self.step);
         // All intervals lie between two rows of the kernel with the same shares.
         let shift = (recent + 0.5) as usize;
         let share = recent + 0.5 - shift as f32;
         let (mut low, mut high) = (0.0, 0.0);
         let rows = self.kernel.get(shift..).unwrap_or_default();
-        let (newer, older) = self.past.split_at(self.newest);
+        let (newer, older) = moves.split_at(*newest);
         for (moved, pair) in older.iter().chain(newer).zip(rows.windows(2)) {
             low += moved * pair[0];
             high += moved * pair[1];
@@ -114,20 +122,27 @@ impl Past {
     }
 
     fn remember(&mut self, moved: f32, dt: f32) {
-        let (mut left, rate) = (dt, moved / dt);
-        while self.since + left >= self.step {
-            let part = self.step - self.since;
-            self.newest = if self.newest == 0 { self.past.len() - 1 } else { self.newest - 1 };
-            self.past[self.newest] = self.moved + rate * part;
-            (self.since, self.moved, left) = (0.0, 0.0, left - part);
+        let (mut left, rate, past) = (dt, moved / dt, &mut self.past);
+        while past.since + left >= self.step {
+            let part = self.step - past.since;
+            past.newest = if past.newest == 0 { past.moves.len() - 1 } else { past.newest - 1 };
+            past.moves[past.newest] = past.moved + rate * part;
+            (past.since, past.moved, left) = (0.0, 0.0, left - part);
         }
-        self.since += left;
-        self.moved += rate * left;
+        past.since += left;
+        past.moved += rate * left;
     }
 
     fn forget(&mut self) {
-        self.past.fill(0.0);
-        (self.since, self.moved) = (0.0, 0.0);
+        self.past.moves.fill(0.0);
+        (self.past.since, self.past.moved) = (0.0, 0.0);
+    }
+
+    /// Whether it could have come to this.
+    fn fits(&self, past: &Past) -> bool {
+        past.moves.len() == self.past.moves.len()
+            && past.newest < past.moves.len()
+            && (0.0..=self.step).contains(&past.since)
     }
 }
 
@@ -138,7 +153,7 @@ impl Memory {
             return None;
         }
         let modes = Mode::of(a).ok()?;
-        let modes = [0, 1, 2].map(|i| modes[i].as_ref().and_then(|mode| Past::of(a, i, mode)));
+        let modes = [0, 1, 2].map(|i| modes[i].as_ref().and_then(|mode| Remembering::of(a, i, mode)));
         modes.iter().any(Option::is_some).then_some(Self { modes })
     }
 
@@ -158,8 +173,27 @@ impl Memory {
         }
     }
 
+    /// Of heave, roll and pitch.
+    pub(crate) fn past(&self) -> [Option<Past>; 3] {
+        [0, 1, 2].map(|i| self.modes[i].as_ref().map(|mode| mode.past.clone()))
+    }
+
+    /// Whether it could have come to this.
+    pub(crate) fn fits(&self, past: &[Option<Past>; 3]) -> bool {
+        self.modes.iter().zip(past).all(|(mode, past)| match (mode, past) {
+            (Some(mode), Some(past)) => mode.fits(past),
+            (mode, past) => mode.is_none() && past.is_none(),
+        })
+    }
+
+    pub(crate) fn restore(&mut self, past: &[Option<Past>; 3]) {
+        for (mode, past) in self.modes.iter_mut().flatten().zip(past.iter().flatten()) {
+            mode.past.clone_from(past);
+        }
+    }
+
     /// After a teleport.
     pub(crate) fn forget(&mut self) {
-        self.modes.iter_mut().flatten().for_each(Past::forget);
+        self.modes.iter_mut().flatten().for_each(Remembering::forget);
     }
 }

@@ -11,9 +11,9 @@ mod motion;
 mod table;
 mod texture;
 
-pub(crate) use memory::Memory;
+pub(crate) use memory::{Memory, Past};
 pub use motion::Imprint;
-pub(crate) use motion::Radiator;
+pub(crate) use motion::{Motion, Radiator};
 pub use table::{RadiationTable, RadiationTables};
 pub(crate) use texture::Afloat;
 pub use texture::{TextureKernel, Textures};

@@ -30,7 +30,8 @@ const QUIET: f32 = 1.0e-6;
 const UPRIGHT: (f32, f32) = (0.8, 0.5);
 
 /// Where a body is against the ambient water.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Place {
     at: Vec2,
     heading: f32,
@@ -38,6 +39,22 @@ struct Place {
     modes: Vec3,
     /// Volume over the volume at rest.
     share: f32,
+}
+
+/// What changes from tick to tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Motion {
+    told: Place,
+    before: Place,
+    /// How much of the textures acts, 0 to 1.
+    gate: f32,
+    /// Amounts of the last tick.
+    change: Vec3,
+    /// The water's answer in this tick: m^3, m^4, m^4.
+    pub(crate) heads: Vec3,
+    /// It takes part in this tick.
+    pub(crate) on: bool,
 }
 
 /// See the module.
@@ -54,16 +71,7 @@ pub(crate) struct Radiator {
     areas: [f32; 3],
     /// See [`crossing`], at rest.
     afloat: f32,
-    told: Place,
-    before: Place,
-    /// How much of the textures acts, 0 to 1.
-    gate: f32,
-    /// Amounts of the last tick.
-    change: Vec3,
-    /// The water's answer in this tick: m^3, m^4, m^4.
-    pub(crate) heads: Vec3,
-    /// It takes part in this tick.
-    pub(crate) on: bool,
+    pub(crate) motion: Motion,
 }
 
 fn area(point: &ForcePoint) -> f32 {
@@ -85,12 +93,7 @@ impl Radiator {
             area_by_volume: plane / volume,
             areas: [0.0; 3],
             afloat: 0.0,
-            told: Place::default(),
-            before: Place::default(),
-            gate: 0.0,
-            change: Vec3::ZERO,
-            heads: Vec3::ZERO,
-            on: false,
+            motion: Motion::default(),
         }
     }
 
@@ -148,38 +151,38 @@ impl Radiator {
         let water = Vec3::new(per(sums.x, whole), per(sums.y, across), per(sums.z, along));
         let modes = Vec3::new(0.0, -r.z_axis.y, r.x_axis.y) - water;
         let upright = ((r.y_axis.y - UPRIGHT.1) / (UPRIGHT.0 - UPRIGHT.1)).clamp(0.0, 1.0);
-        self.gate = upright * per(2.0 * crossing(wet / all), self.afloat).min(1.0);
+        self.motion.gate = upright * per(2.0 * crossing(wet / all), self.afloat).min(1.0);
         let now = Place { at, heading, modes, share: volume_share };
-        self.before = if restart { now } else { self.told };
+        self.motion.before = if restart { now } else { self.motion.told };
         if restart {
-            self.told = now;
-            self.change = Vec3::ZERO;
+            self.motion.told = now;
+            self.motion.change = Vec3::ZERO;
             return;
         }
-        let change = modes - self.told.modes;
-        let moved = at.distance(self.told.at) + self.radius * turn(heading - self.told.heading).abs();
+        let change = modes - self.motion.told.modes;
+        let moved = at.distance(self.motion.told.at) + self.radius * turn(heading - self.motion.told.heading).abs();
         if moved >= NEAR * self.radius {
-            (self.told.at, self.told.heading) = (at, heading);
+            (self.motion.told.at, self.motion.told.heading) = (at, heading);
         }
         let heights = change.abs() * Vec3::new(1.0, self.radius, self.radius);
         if heights.max_element() >= QUIET {
-            self.told.modes = modes;
-            self.told.share = volume_share;
-            self.change = change * self.gate;
+            self.motion.told.modes = modes;
+            self.motion.told.share = volume_share;
+            self.motion.change = change * self.motion.gate;
         } else {
-            self.change = Vec3::ZERO;
+            self.motion.change = Vec3::ZERO;
         }
     }
 
     /// The force in N and the torque about the hull's x and z in N m of the grid's waves.
     pub(crate) fn push(&self, density: f32) -> Vec3 {
-        self.heads * (self.gate * density * crate::GRAVITY)
+        self.motion.heads * (self.motion.gate * density * crate::GRAVITY)
     }
 
     /// What is to be written: the hull is taken from where it was and put where it is, the modes act there.
     pub(crate) fn imprints(&self) -> [Imprint; 2] {
-        let (old, new) = (&self.before, &self.told);
-        let Vec3 { x: heave, y: roll, z: pitch } = -self.change;
+        let (old, new) = (&self.motion.before, &self.motion.told);
+        let Vec3 { x: heave, y: roll, z: pitch } = -self.motion.change;
         // Heave's texture brings the volume itself.
         let volume = new.share - heave * self.area_by_volume;
         let here = Imprint { at: new.at, heading: new.heading, amounts: [heave, roll, pitch, volume] };
@@ -193,8 +196,8 @@ impl Radiator {
 
     /// Moves with the local origin.
     pub(crate) fn rebase(&mut self, offset: Vec2) {
-        self.told.at -= offset;
-        self.before.at -= offset;
+        self.motion.told.at -= offset;
+        self.motion.before.at -= offset;
     }
 }
 

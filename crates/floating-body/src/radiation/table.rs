@@ -4,6 +4,7 @@ use crate::BodyError;
 
 /// One mode of a hull afloat: its added mass and its radiation damping at some frequencies.
 #[derive(Clone, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RadiationTable {
     /// Angular frequencies in rad/s, positive, rising; at least 4, and the body's own frequency among them.
     pub omega: Vec<f32>,
@@ -16,6 +17,7 @@ pub struct RadiationTable {
 
 /// What is known of a hull's modes; `None` is estimated.
 #[derive(Clone, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RadiationTables {
     /// Up and down, at the centre of the waterplane.
     pub heave: Option<RadiationTable>,

@@ -24,7 +24,7 @@ pub(crate) struct Segment {
     /// Which cascade each was before and is after, where cascades change.
     places: Option<Vec<[Option<usize>; 2]>>,
     pub(crate) start: f64,
-    seconds: f64,
+    pub(crate) seconds: f64,
     /// What the two sets have in common, where their modes move together; then amplitudes are mixed, else two seas
     /// that do not know each other are faded into each other.
     pub(crate) cross: Option<Cross>,
@@ -96,10 +96,34 @@ impl Segment {
         [a * raised, b * raised]
     }
 
+    pub(crate) fn new(before: Arc<ModeSet>, after: Arc<ModeSet>, start: f64, seconds: f64) -> Result<Self, OceanError> {
+        let (from, to, places) = match alike(&before, &after) {
+            true => (Arc::clone(&before), Arc::clone(&after), None),
+            false => {
+                let Joined { from, to, places } = Joined::new(&before, &after)?;
+                (Arc::new(from), Arc::new(to), Some(places))
+            }
+        };
+        let phase = [&from, &to].map(|set| set.phase_at(start + 0.5 * seconds));
+        let covariance = common(&before, &after).iter().map(|[a, b]| covariance(a, b, phase)).sum();
+        let cross = Cross::of(&from, &to);
+        Ok(Self { before, after, from, to, places, start, seconds, cross, covariance })
+    }
+
+    /// Whether its amplitudes move on the same cascades, so that it may be left half way.
+    fn moves(&self) -> bool {
+        self.cross.is_some() && self.places.is_none()
+    }
+
     /// The sea at a time on the way.
-    fn mixed(self: &Arc<Self>, t: f64) -> ModeSet {
+    ///
+    /// # Errors
+    /// The two seas fade into each other.
+    pub(crate) fn mixed(&self, t: f64) -> Result<ModeSet, OceanError> {
+        check("change left half way", t, self.moves(), "of amplitudes alone")?;
         let parts = Parts::Mixed(self);
-        ModeSet::mixed(&self.from, &self.to, parts.shares(t).1, parts.moment(t).choppiness)
+        let recipe = self.before.recipe.mixed(self, t);
+        Ok(ModeSet::mixed([&self.from, &self.to], recipe, parts.shares(t).1, parts.moment(t).choppiness))
     }
 }
 
@@ -134,21 +158,12 @@ impl Ocean {
         let (before, start) = match earlier {
             None => (Arc::clone(&self.base), start),
             Some(last) if last.end() <= start => (Arc::clone(&last.after), start),
-            Some(last) if last.cross.is_some() && last.places.is_none() => (Arc::new(last.mixed(start)), start),
+            Some(last) if last.moves() => (Arc::new(last.mixed(start)?), start),
             Some(last) => (Arc::clone(&last.after), last.end()),
         };
-        let (from, to, places) = match alike(&before, &after) {
-            true => (Arc::clone(&before), Arc::clone(&after), None),
-            false => {
-                let Joined { from, to, places } = Joined::new(&before, &after)?;
-                (Arc::new(from), Arc::new(to), Some(places))
-            }
-        };
-        let phase = [&from, &to].map(|set| set.phase_at(start + 0.5 * seconds));
-        let covariance = common(&before, &after).iter().map(|[a, b]| covariance(a, b, phase)).sum();
-        let cross = Cross::of(&from, &to);
+        let segment = Segment::new(before, after, start, seconds)?;
         self.segments.retain(|segment| segment.start < asked);
-        self.segments.push(Arc::new(Segment { before, after, from, to, places, start, seconds, cross, covariance }));
+        self.segments.push(Arc::new(segment));
         while self.segments.len() > 1 && self.segments[1].start <= self.time_set {
             self.base = Arc::clone(&self.segments[1].before);
             self.segments.remove(0);
@@ -175,8 +190,8 @@ impl Ocean {
     }
 
     /// Takes over the changes of a clone that was changed, on another thread say.
-    pub fn adopt(&mut self, changed: Self) {
-        (self.base, self.segments) = (changed.base, changed.segments);
+    pub fn adopt(&mut self, changed: &Self) {
+        (self.base, self.segments) = (Arc::clone(&changed.base), changed.segments.clone());
         self.refresh();
     }
 

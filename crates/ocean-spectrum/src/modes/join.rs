@@ -60,7 +60,8 @@ impl Joined {
             });
             let cascades = places.iter().map(|&place| CascadeDesc::new(size(place), tile(place))).collect();
             let desc = OceanDesc { cascades, ..set.desc.clone() };
-            ModeSet::of(set.level, desc, set.spectra.clone(), modes.collect(), set.notices.clone())
+            let (recipe, spectra, notices) = (set.recipe.clone(), set.spectra.clone(), set.notices.clone());
+            ModeSet::of(set.level, desc, recipe, spectra, modes.collect(), notices)
         };
         let (from, to) = (set(a, 0), set(b, 1));
         Ok(Self { from, to, places })

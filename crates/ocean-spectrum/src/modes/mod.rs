@@ -7,6 +7,7 @@ pub(crate) mod change;
 pub(crate) mod join;
 pub(crate) mod moment;
 pub(crate) mod random;
+pub(crate) mod recipe;
 pub(crate) mod set;
 pub(crate) mod tiles;
 
@@ -24,6 +25,7 @@ pub(crate) const BAND_START: f64 = 6.0;
 
 /// How the amplitude of a mode follows from the variance of its cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Amplitudes {
     /// Each wave is as high as the mean of its kind, only its phase is random: every seed has the wave height described.
     #[default]

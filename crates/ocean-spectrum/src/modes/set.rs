@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use fearless_simd::Level;
 
+use crate::modes::recipe::Recipe;
 use crate::modes::{self, CascadeModes};
 use crate::query::largest::{Largest, Queries};
 use crate::query::patch::Band;
@@ -22,6 +23,7 @@ pub(crate) struct ModeSet {
     /// No other mode set has it; from 1.
     pub(crate) id: u64,
     pub(crate) desc: OceanDesc,
+    pub(crate) recipe: Recipe,
     /// The spectra of which the modes are a mix, with their shares in the amplitudes, largest first.
     pub(crate) spectra: Vec<(f64, Arc<WaveSpectrum>)>,
     pub(crate) modes: Vec<CascadeModes>,
@@ -54,12 +56,14 @@ impl ModeSet {
         if share > 0.01 {
             notices.push(Notice::VarianceLost { share });
         }
-        Ok(Self::of(level, desc, vec![(1.0, Arc::new(spectrum))], modes, notices))
+        let recipe = Recipe::new(desc.clone());
+        Ok(Self::of(level, desc, recipe, vec![(1.0, Arc::new(spectrum))], modes, notices))
     }
 
     pub(crate) fn of(
         level: Level,
         desc: OceanDesc,
+        recipe: Recipe,
         spectra: Vec<(f64, Arc<WaveSpectrum>)>,
         modes: Vec<CascadeModes>,
         notices: Vec<Notice>,
@@ -79,6 +83,7 @@ impl ModeSet {
                 Queries::Largest(count) => Some(Largest::new(&modes, desc.loop_time, count)),
             },
             desc,
+            recipe,
             spectra,
             modes,
             notices,
@@ -87,7 +92,7 @@ impl ModeSet {
 
     /// The sea that two are on the way between, as a set of its own: amplitudes `weight[0] a + weight[1] b`, for sets
     /// of equal frequencies.
-    pub(crate) fn mixed(a: &Self, b: &Self, weight: [f64; 2], choppiness: f32) -> Self {
+    pub(crate) fn mixed([a, b]: [&Self; 2], recipe: Recipe, weight: [f64; 2], choppiness: f32) -> Self {
         let mut modes = b.modes.clone();
         for (modes, from) in modes.iter_mut().zip(&a.modes) {
             for (to, from) in modes.amp.iter_mut().zip(&from.amp) {
@@ -110,7 +115,7 @@ impl ModeSet {
             *share /= sum;
         }
         let desc = OceanDesc { choppiness, ..b.desc.clone() };
-        Self::of(b.level, desc, spectra, modes, b.notices.clone())
+        Self::of(b.level, desc, recipe, spectra, modes, b.notices.clone())
     }
 
     /// See [`crate::Ocean::phase_at`].

@@ -9,6 +9,7 @@ use crate::CascadeModes;
 
 /// How the queries of an ocean are answered.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Queries {
     /// From the arrays of all cascades, read by the cubic kernel: all waves, and a point costs the same however many
     /// there are.

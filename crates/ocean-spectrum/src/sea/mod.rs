@@ -16,6 +16,7 @@ use crate::{OceanError, files as file, files::ndbc};
 
 /// A sea state: the sum of its partitions over water of one depth.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SeaState {
     /// Wind sea and swells, summed.
     pub partitions: Vec<Partition>,

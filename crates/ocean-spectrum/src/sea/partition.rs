@@ -5,6 +5,7 @@ use crate::{DirectionalTable, OceanError};
 
 /// One system of waves.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Partition {
     /// Variance over frequency.
     pub spectrum: Spectrum,
@@ -24,6 +25,7 @@ pub struct Partition {
 
 /// Distribution of variance over frequency.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Spectrum {
     /// Phillips as Tessendorf uses it, `exp(-1/(kL)^2)/k^4` with `L = U^2/g`. His free constant has no measurable
@@ -66,6 +68,7 @@ pub enum Spectrum {
 
 /// A row of a measured spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TableRow {
     /// Frequency, Hz, above 0 to 5.
     pub frequency: f32,
@@ -79,6 +82,7 @@ pub struct TableRow {
 
 /// Distribution of variance over direction; each integrates to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Spreading {
     /// `cos^2s(theta/2)` (Longuet-Higgins et al. 1963), alike at all frequencies.
@@ -101,6 +105,7 @@ pub enum Spreading {
 
 /// What the density of waves well above the peak follows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Tail {
     /// The spectrum's own formula: `omega^-5`, or for measured ones that from the last row.

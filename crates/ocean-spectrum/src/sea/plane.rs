@@ -8,10 +8,29 @@ use crate::error::check;
 /// Variance density over frequency and direction: bilinear between its nodes, round the circle; zero below the first
 /// frequency, continued above the last by a frequency^-5 tail with that row's directions.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Raw"))]
 pub struct DirectionalTable {
     frequencies: Vec<f32>,
     directions: Vec<f32>,
     densities: Vec<f32>,
+}
+
+/// As it is read, unchecked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Raw {
+    frequencies: Vec<f32>,
+    directions: Vec<f32>,
+    densities: Vec<f32>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Raw> for DirectionalTable {
+    type Error = OceanError;
+
+    fn try_from(raw: Raw) -> Result<Self, OceanError> {
+        Self::new(raw.frequencies, raw.directions, raw.densities)
+    }
 }
 
 impl DirectionalTable {

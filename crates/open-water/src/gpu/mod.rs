@@ -124,6 +124,26 @@ impl Gpu {
         Ok(())
     }
 
+    /// The water has become another one: nothing that the device holds is known to be right.
+    ///
+    /// # Errors
+    /// There is no room for it.
+    pub(crate) fn restore(&mut self, ocean: Option<&Ocean>, cells: u32) -> Result<(), OpenWaterError> {
+        self.shown = Shown::default();
+        if !self.lost && self.ocean.is_some() != ocean.is_some() {
+            let made = self.guard("the sea", |gpu| {
+                let made = ocean.map(|ocean| GpuOcean::new(&gpu.device, ocean)).transpose()?;
+                gpu.surface.bind(&gpu.device, made.as_ref());
+                Ok(made)
+            });
+            match made {
+                Ok(made) => (self.ocean, self.next) = (made, sea::Next::default()),
+                error => return fault::or_without(error.map(|_| ())),
+            }
+        }
+        self.resize_pool(cells)
+    }
+
     /// Takes over what does not depend on the device.
     fn inherit(&mut self, old: &Self) {
         self.pool[1] = old.pool[1];

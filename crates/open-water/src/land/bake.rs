@@ -3,6 +3,8 @@
 //! Each cascade's amplitude is scaled by three factors: what reaches the place past the land, what its depth lets stand
 //! (TMA and breaking), and what no grid has taken over. All are made anew when land, water level or fed grids change.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use ocean_spectrum::Ocean;
 use rayon::prelude::*;
@@ -72,6 +74,23 @@ pub(crate) fn bake(terrain: &Terrain, ocean: Option<&Ocean>, carriers: &[Carrier
 }
 
 impl Baked {
+    /// Whether they are of so many pixels.
+    pub(crate) fn is_of(&self, pixels: usize) -> bool {
+        self.factors.len() == pixels && self.incoming.len() == pixels
+    }
+
+    /// The same with what only the GPU reads, which bytes do not hold.
+    pub(crate) fn whole(maps: &Arc<Self>, terrain: &Terrain) -> Arc<Self> {
+        #[cfg(feature = "gpu")]
+        if maps.ground.is_empty() {
+            let (nx, count) = (terrain.bed().size()[0] as usize, terrain.bed().elevations().len());
+            let ground = |at: usize| ground(terrain, at, terrain.bed().place([at % nx, at / nx]));
+            return Arc::new(Self { ground: (0..count).into_par_iter().map(ground).collect(), ..(**maps).clone() });
+        }
+        let _ = terrain;
+        Arc::clone(maps)
+    }
+
     /// The factors `share` of the way from these to those of another sea on the same land.
     pub(crate) fn towards(&self, to: &Self, share: f32) -> Self {
         let mix = |a: f32, b: f32| a + share * (b - a);

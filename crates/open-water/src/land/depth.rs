@@ -15,6 +15,7 @@ const LEAST_DEPTH: f32 = 0.5;
 
 /// How the levels of an image become metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DepthScale {
     /// Height of one level, metres, above 0: brighter is higher.
     pub metres_per_level: f32,
@@ -28,11 +29,31 @@ pub struct DepthScale {
 
 /// Elevations of the bed and of the land above it.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Raw"))]
 pub struct DepthMap {
     corner: DVec2,
     texel: f32,
     size: [u32; 2],
     elevations: Vec<f32>,
+}
+
+/// As it is read, unchecked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Raw {
+    corner: DVec2,
+    texel: f32,
+    size: [u32; 2],
+    elevations: Vec<f32>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Raw> for DepthMap {
+    type Error = OpenWaterError;
+
+    fn try_from(raw: Raw) -> Result<Self, OpenWaterError> {
+        Self::new(raw.corner, raw.texel, raw.size, raw.elevations)
+    }
 }
 
 impl DepthMap {

@@ -26,6 +26,7 @@ pub(crate) use terrain::Terrain;
 
 /// Land around and under the water. The default of every field but the bed is none.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Land {
     /// The bed and the ground above it. Where it is dry, grids have a reflecting wall.
     pub bed: DepthMap,
@@ -49,6 +50,7 @@ impl Land {
 
 /// A wall with an outline of its own.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Obstacle {
     /// Corners in order (world x, z); the inside is the wall.
     pub outline: Vec<DVec2>,
@@ -58,6 +60,7 @@ pub struct Obstacle {
 
 /// What a wall does to the waves of grids.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ObstacleKind {
     /// No water passes: waves are reflected upright, as by a real wall.
     #[default]
@@ -68,6 +71,7 @@ pub enum ObstacleKind {
 
 /// Damping of a grid's waves, `z_tt + sigma z_t = ...`.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Damping {
     /// Waves break where it is shallow: sigma = rate (1 - depth/surf_depth)^2.
     Beach {
@@ -89,6 +93,7 @@ impl Default for Damping {
 
 /// How land calms the ambient sea.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shelter {
     /// From the map: of the waves of each direction, those arrive that no land blocks.
     #[default]

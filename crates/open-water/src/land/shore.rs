@@ -20,7 +20,7 @@ pub(crate) struct Shore {
     /// The land at the level for which the maps were made.
     pub(crate) terrain: Option<Terrain>,
     /// The maps as they are shown.
-    pub(crate) baked: Baked,
+    pub(crate) baked: Arc<Baked>,
     /// How often they changed.
     pub(crate) revision: u64,
     /// The maps' way from one sea's to another's.
@@ -32,11 +32,12 @@ pub(crate) struct Shore {
 }
 
 /// Maps on their way from one sea's to another's.
+#[derive(Debug, Clone)]
 pub(crate) struct Turning {
-    pub(crate) from: Baked,
-    pub(crate) to: Baked,
+    pub(crate) from: Arc<Baked>,
+    pub(crate) to: Arc<Baked>,
     /// While cascades change: the maps of those that stay.
-    pub(crate) after: Option<Baked>,
+    pub(crate) after: Option<Arc<Baked>>,
     /// When it begins and how long it takes, seconds.
     pub(crate) start: f64,
     pub(crate) seconds: f64,

@@ -25,6 +25,9 @@ struct Parts {
     no_water: Vec<Polygon>,
     /// c/c0 over sqrt(g h/c0^2) from 0 to [`DEEP`].
     speeds: Vec<f32>,
+    /// Of the land, once asked for.
+    #[cfg(feature = "serde")]
+    digest: std::sync::OnceLock<u64>,
 }
 
 /// The land at one water level. A copy shares the maps.
@@ -49,7 +52,26 @@ impl Terrain {
         let dry = |outline: &Vec<DVec2>| Polygon::new("no_water outline", outline);
         let no_water = land.no_water.iter().map(dry).collect::<Result<_, _>>()?;
         let speeds = (0..=SPEEDS).map(|i| speed_ratio(f64::from(DEEP) * i as f64 / SPEEDS as f64) as f32).collect();
-        Ok(Self { parts: Arc::new(Parts { land, walls, no_water, speeds }), level })
+        let parts = Parts {
+            land,
+            walls,
+            no_water,
+            speeds,
+            #[cfg(feature = "serde")]
+            digest: std::sync::OnceLock::new(),
+        };
+        Ok(Self { parts: Arc::new(parts), level })
+    }
+
+    /// Whether it is the same land, at whatever level.
+    pub(crate) fn is_of_land(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.parts, &other.parts) || self.parts.land == other.parts.land
+    }
+
+    /// Tells this land from others.
+    #[cfg(feature = "serde")]
+    pub(crate) fn digest(&self) -> u64 {
+        *self.parts.digest.get_or_init(|| crate::snapshot::Digest::of(&self.parts.land))
     }
 
     /// As grids read it.

@@ -28,6 +28,7 @@ const LARGEST: u32 = 4;
 
 /// Grids that bodies get by themselves, see [`OpenWater::set_wakes`].
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WakesDesc {
     /// The grid of a body near the eye, on the CPU; whom it follows is not read. With [`Scheme::Dispersive`] and
     /// [`Scheme::Spectral`], hulls longer than 48 of its cells get as many larger ones: twice, four times, up to 16 times as
@@ -53,6 +54,7 @@ impl Default for WakesDesc {
 
 /// Whether a body has a grid by [`OpenWater::set_wakes`], or why not.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Wake {
     /// It has one.
@@ -154,6 +156,8 @@ impl WakesDesc {
 }
 
 /// A body with a grid.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Kept {
     body: BodyId,
     grid: GridId,
@@ -163,7 +167,8 @@ struct Kept {
 }
 
 /// What is known of all bodies' wakes.
-#[derive(Default)]
+#[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Wakes {
     desc: Option<WakesDesc>,
     kept: Vec<Kept>,
@@ -172,6 +177,24 @@ pub(crate) struct Wakes {
     /// Mean velocities, m/s.
     ways: SecondaryMap<BodyId, Vec2>,
     told: SecondaryMap<BodyId, Wake>,
+}
+
+impl Wakes {
+    /// Refuses what no water can have come to.
+    pub(crate) fn check(&self, tick: f32) -> Result<(), OpenWaterError> {
+        self.desc.as_ref().map_or(Ok(()), |desc| desc.check(tick))?;
+        match self.kept.iter().find(|kept| kept.level > COARSEST || kept.size > LARGEST) {
+            None => Ok(()),
+            Some(kept) => {
+                let value = kept.level.max(kept.size).into();
+                Err(OpenWaterError::InvalidValue {
+                    field: "snapshot: wakes",
+                    value,
+                    bound: "cells doubled 4 times at most",
+                })
+            }
+        }
+    }
 }
 
 impl OpenWater {

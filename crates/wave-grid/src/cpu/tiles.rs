@@ -13,6 +13,7 @@ const FAINT: f32 = 1e-10;
 
 /// What a tile does in this tick.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Mode {
     /// All zero, not stepped.
     #[default]
@@ -25,6 +26,7 @@ pub(crate) enum Mode {
 
 /// What the medium makes of a tile.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Class {
     /// Open deep water, with the ring of cells around it.
     #[default]
@@ -37,6 +39,7 @@ pub(crate) enum Class {
 
 /// One tile.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Tile {
     /// Bound of |z| and |z_old|, metres.
     pub(crate) height: f32,
@@ -71,6 +74,7 @@ impl Tile {
 
 /// The tiles that cover a window.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Tiles {
     /// Cells of the window.
     pub(crate) cells: [usize; 2],
@@ -79,6 +83,7 @@ pub(crate) struct Tiles {
     /// Tiles per axis, for any offset.
     pub(crate) count: [usize; 2],
     pub(crate) tiles: Vec<Tile>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     scratch: Vec<Tile>,
     /// How many are active.
     pub(crate) active: usize,
@@ -89,6 +94,19 @@ impl Tiles {
         let count = cells.map(|n| n.div_ceil(TILE) + 1);
         let tiles = vec![Tile::default(); count[0] * count[1]];
         Self { cells, offset, count, scratch: tiles.clone(), tiles, active: 0 }
+    }
+
+    /// Whether they are tiles of the same window as others, which begins so many cells into the first.
+    pub(crate) fn is_one_of(&self, other: &Self, offset: [usize; 2]) -> bool {
+        let Self { cells, offset: own, count, tiles, scratch: _, active: _ } = self;
+        (cells, count, tiles.len()) == (&other.cells, &other.count, other.tiles.len()) && *own == offset
+    }
+
+    /// Goes back to those of another moment.
+    pub(crate) fn restore(&mut self, to: &Self) {
+        let Self { cells: _, offset, count: _, tiles, scratch: _, active } = to;
+        (self.offset, self.active) = (*offset, *active);
+        self.tiles.clone_from(tiles);
     }
 
     /// Cells of the window that tile `t` covers along an axis.

@@ -58,10 +58,24 @@ impl Layer {
             self.axes[k] = axis(self.cells[k], self.width, self.g, self.sides.open[k]);
         }
     }
+
+    /// Goes back to these sides, with what [`Memory::numbers`] told.
+    pub(crate) fn restore(&mut self, sides: Sides, mut numbers: &[f32]) {
+        for k in (0..2).filter(|k| sides.open[*k] != self.sides.open[*k]) {
+            self.axes[k] = axis(self.cells[k], self.width, self.g, sides.open[k]);
+        }
+        self.sides = sides;
+        for (_, array) in self.memory.arrays() {
+            let (own, rest) = numbers.split_at(array.len());
+            array.copy_from_slice(own);
+            numbers = rest;
+        }
+    }
 }
 
 /// Share of its strength that each side has, low and high along x and along z.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Sides {
     pub(crate) open: [[f64; 2]; 2],
 }
@@ -86,6 +100,10 @@ impl Sides {
             }
             changed
         })
+    }
+
+    pub(crate) fn is_sane(&self) -> bool {
+        self.open.as_flattened().iter().all(|open| (0.0..=1.0).contains(open))
     }
 
     /// Which are off.
@@ -154,6 +172,12 @@ impl Memory {
             .zip(zeta)
             .enumerate()
             .flat_map(|(axis, (psi, zeta))| psi.iter_mut().chain(zeta).map(move |array| (axis, array)))
+    }
+
+    /// All that it holds.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = &[f32]> {
+        let Self { psi, zeta, .. } = self;
+        psi.iter().zip(zeta).flat_map(|(psi, zeta)| psi.iter().chain(zeta).map(Vec::as_slice))
     }
 
     pub(crate) fn clear(&mut self) {

@@ -25,7 +25,7 @@ mod table;
 
 pub(crate) use bed::Bed;
 pub(crate) use fields::Fields;
-pub(crate) use layer::{Layer, Memory};
+pub(crate) use layer::{Layer, Memory, Sides};
 pub use table::{DEEP, FIELDS, MOST_G, Shares, Table};
 
 use crate::{GridDesc, Stepping};

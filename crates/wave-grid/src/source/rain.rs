@@ -30,6 +30,7 @@ const MOST: u32 = 4096;
 /// # Ok::<(), wave_grid::GridError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rain {
     /// Water that falls, mm/h. Drizzle brings 1, heavy rain 20, a cloudburst 100.
     pub rate: f32,
