@@ -18,7 +18,7 @@ pub enum Work {
     },
     /// Half-float mips and foam of the cascades, for looks.
     OceanLooks,
-    /// A CPU-homed grid's drawn heights go to the pool.
+    /// A CPU-homed grid's drawn heights go to the pool, where there are waves or were any.
     GridUpload {
         /// The grid.
         grid: GridId,

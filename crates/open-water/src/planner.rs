@@ -49,7 +49,7 @@ impl OpenWater {
         let nobody = views.is_empty() && consumers.is_empty();
         self.plan_ocean(&facts, &mut plan, nobody, consumers);
         for grid in self.grids.iter() {
-            plan_grid(&facts, &mut plan, grid, nobody);
+            plan_grid(&facts, &mut plan, grid, nobody, || self.upload_bytes(grid));
         }
         #[cfg(feature = "gpu")]
         self.plan_remote(&mut plan);
@@ -68,6 +68,15 @@ impl OpenWater {
             plan.work.insert(0, Work::Table);
         }
         plan
+    }
+
+    /// Bytes of a CPU-homed grid's upload.
+    fn upload_bytes(&self, grid: &Grid) -> u64 {
+        #[cfg(feature = "gpu")]
+        if let Some(gpu) = &self.gpu {
+            return gpu.upload_bytes(grid);
+        }
+        grid.pool_bytes()
     }
 
     fn facts(&self) -> Facts {
@@ -104,7 +113,7 @@ impl OpenWater {
     }
 }
 
-fn plan_grid(facts: &Facts, plan: &mut FramePlan, grid: &Grid, nobody: bool) {
+fn plan_grid(facts: &Facts, plan: &mut FramePlan, grid: &Grid, nobody: bool, bytes: impl FnOnce() -> u64) {
     // GPU-homed grids are planned together: they share their dispatches.
     if !matches!(grid.sim, Sim::Cpu(_)) {
         return;
@@ -118,7 +127,7 @@ fn plan_grid(facts: &Facts, plan: &mut FramePlan, grid: &Grid, nobody: bool) {
     } else if facts.shown.grids == Some((plan.tick, plan.alpha)) {
         Reason::Unchanged
     } else {
-        plan.work.push(Work::GridUpload { grid: grid.id, bytes: grid.pool_bytes() });
+        plan.work.push(Work::GridUpload { grid: grid.id, bytes: bytes() });
         return;
     };
     plan.skipped.push(Skipped { work: SkippedWork::Grid(grid.id), reason });

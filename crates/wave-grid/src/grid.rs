@@ -7,6 +7,7 @@ use glam::{DVec2, Vec2};
 
 use crate::border::{Axis, Border, Profile};
 use crate::cpu::current::Carrier;
+use crate::cpu::draw::Drawing;
 use crate::cpu::foam::FoamLaw;
 use crate::cpu::kernels::Coefficients;
 use crate::cpu::moving::MovingLayer;
@@ -233,8 +234,19 @@ impl WaveGrid {
     /// Writes (height in metres, foam 0 to 1) of every cell of the current window, both faded, `alpha` (0 to 1) of the
     /// way from the tick before to the last one. Cells that `out` is too short for are left out.
     pub fn draw(&self, alpha: f32, out: &mut [[f32; 2]]) {
+        self.draw_from(0, alpha, out);
+    }
+
+    /// As [`Self::draw`], of the cells from number `first` on (row-major, x fastest), as many as `out` holds.
+    pub fn draw_from(&self, first: usize, alpha: f32, out: &mut [[f32; 2]]) {
         let alpha = if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) };
-        cpu::draw::draw(&self.state, &self.tiles, self.before(), &self.fade, alpha, out);
-        self.holes.cut(out);
+        let (state, tiles, before) = (&self.state, &self.tiles, self.before());
+        Drawing { state, tiles, before, fade: &self.fade, holes: &self.holes, alpha }.write(first, out);
+    }
+
+    /// For each band of [`TILE`](crate::TILE) rows of the window, from row 0 on, the columns (first and end) outside of which [`Self::draw`]
+    /// writes zeros, whatever `alpha`; equal where all of the band is zero.
+    pub fn shown(&self, bands: &mut Vec<[u32; 2]>) {
+        cpu::draw::shown(&self.tiles, self.desc.border, bands);
     }
 }

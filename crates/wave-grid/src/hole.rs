@@ -91,23 +91,14 @@ impl Holes {
         left.map(|left| left.max(0.0))
     }
 
-    /// Cuts them out of what is drawn.
-    pub(crate) fn cut(&self, drawn: &mut [[f32; 2]]) {
-        let Some(nx) = self.cuts.first().map(|cut| cut.x.len()) else { return };
-        let mut left = vec![1.0f32; nx];
-        for (j, row) in drawn.chunks_exact_mut(nx).enumerate() {
-            let mut whole = true;
-            for Cut { x, z } in self.cuts.iter().filter(|cut| cut.z.get(j).is_some_and(|z| *z > 0.0)) {
-                if std::mem::take(&mut whole) {
-                    left.fill(1.0);
-                }
-                left.iter_mut().zip(x).for_each(|(left, x)| *left -= z[j] * x);
-            }
-            if !whole {
-                for (cell, left) in row.iter_mut().zip(&left) {
-                    *cell = cell.map(|value| value * left.max(0.0));
-                }
-            }
+    /// Cuts them out of what is drawn of row `row` from column `first` on.
+    pub(crate) fn cut(&self, row: usize, first: usize, drawn: &mut [[f32; 2]]) {
+        if !self.cuts.iter().any(|cut| cut.z[row] > 0.0) {
+            return;
+        }
+        for (i, cell) in (first..).zip(drawn) {
+            let left = self.cuts.iter().fold(1.0, |left, Cut { x, z }| left - z[row] * x[i]);
+            *cell = cell.map(|value| value * left.max(0.0));
         }
     }
 }

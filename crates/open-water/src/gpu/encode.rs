@@ -75,6 +75,9 @@ impl Gpu {
     fn upload(&mut self, plan: &FramePlan, ocean: Option<&Ocean>, grids: &mut Grids, frame: &mut Frame<'_>) -> Parts {
         let moment = (plan.tick, plan.alpha);
         let mut parts = Parts::default();
+        if self.losses != frame.losses() {
+            self.uploads.forget();
+        }
         self.shown = self.held(frame.losses());
         let ready = ocean.is_none_or(|ocean| self.follow_sea(ocean, plan.time));
         for work in &plan.work {
@@ -89,8 +92,11 @@ impl Gpu {
                     self.surface.write_table(frame, plan.time, ocean, grids.iter(), plan.shore, size);
                 }
                 Work::GridUpload { grid, .. } => {
-                    if let Some(grid) = grids.get_mut(grid) {
-                        self.upload_grid(frame, grid, plan.alpha);
+                    if let Ok(grid) = grids.get(grid)
+                        && let Sim::Cpu(waves) = &grid.sim
+                    {
+                        let place = (self.surface.pool(), grid.base);
+                        self.uploads.write(frame, place, (grid.id, waves), plan.alpha);
                     }
                     self.shown.grids = Some(moment);
                 }
@@ -109,6 +115,8 @@ impl Gpu {
                 Work::OceanLooks => {}
                 Work::GridSteps { .. } => parts.steps = self.remote.upload_steps(frame),
                 Work::GridDraw { .. } => {
+                    let remote = grids.iter().filter(|grid| matches!(grid.sim, Sim::Gpu(_)));
+                    remote.for_each(|grid| self.uploads.forget_grid(grid.id));
                     parts.draw = self.remote.upload_draw(frame, self.surface.pool(), plan, grids);
                 }
             }
@@ -116,14 +124,6 @@ impl Gpu {
         self.losses = frame.losses();
         frame.watch();
         parts
-    }
-
-    fn upload_grid(&mut self, frame: &mut Frame<'_>, grid: &mut crate::grids::Grid, alpha: f32) {
-        let Sim::Cpu(waves) = &grid.sim else { return };
-        self.scratch.resize(grid.cell_count() as usize, [0.0; 2]);
-        waves.draw(alpha, &mut self.scratch);
-        let offset = u64::from(grid.base) * size_of::<[f32; 2]>() as u64;
-        frame.write(self.surface.pool(), offset, bytemuck::cast_slice(&self.scratch));
     }
 
     /// Dispatches of the sea's fields, and of its looks.

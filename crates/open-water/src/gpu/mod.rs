@@ -12,6 +12,7 @@ mod limits;
 mod mirror;
 mod sea;
 mod surface;
+mod uploads;
 
 use floating_body::DryHull;
 use ocean_spectrum::Ocean;
@@ -21,12 +22,13 @@ use open_water_shaders::pipeline::Staging;
 use crate::OpenWaterError;
 use crate::bodies::Bodies;
 use crate::dry::DryHulls;
-use crate::grids::{Grids, Sim};
+use crate::grids::{Grid, Grids, Sim};
 use crate::plan::FramePlan;
 use crate::planner::Shown;
 use crate::store::BodyId;
 pub use fault::DeviceLoss;
 use surface::SurfaceBinding;
+use uploads::Uploads;
 
 pub(crate) struct Gpu {
     device: wgpu::Device,
@@ -48,8 +50,7 @@ pub(crate) struct Gpu {
     dry: u32,
     /// Time of the last looks, seconds: foam fades by the difference.
     looks_time: f64,
-    /// Drawn heights of one grid, before they are uploaded.
-    scratch: Vec<[f32; 2]>,
+    uploads: Uploads,
 }
 
 impl Gpu {
@@ -76,7 +77,7 @@ impl Gpu {
                 pool: [0; 2],
                 dry: 0,
                 looks_time: 0.0,
-                scratch: Vec::new(),
+                uploads: Uploads::default(),
             })
         })
     }
@@ -93,8 +94,14 @@ impl Gpu {
         if cells > room || cells.max(least) < room / 4 {
             return self.make_pool(cells.max(least), self.dry);
         }
-        self.shown.grids = None;
+        self.forget_pool();
         Ok(())
+    }
+
+    /// What was drawn of grids is not where it was.
+    fn forget_pool(&mut self) {
+        self.shown.grids = None;
+        self.uploads.forget();
     }
 
     /// A pool for so many cells of grids, then so many elements of the rasters of dry hulls.
@@ -108,7 +115,7 @@ impl Gpu {
             error => return fault::or_without(error.map(|_| ())),
         }
         (self.pool[0], self.dry) = (cells, dry);
-        self.shown.grids = None;
+        self.forget_pool();
         Ok(())
     }
 
@@ -172,9 +179,14 @@ impl Gpu {
         }
     }
 
-    /// Ticks the grids that are homed here; on a lost device they are calm.
+    /// Ticks the grids that are homed here, and notes where the others have waves; on a lost device these are calm.
     pub(crate) fn tick_grids(&mut self, grids: &mut Grids) {
         if !self.lost {
+            for grid in grids.iter() {
+                if let Sim::Cpu(waves) = &grid.sim {
+                    self.uploads.note(grid.id, waves);
+                }
+            }
             return self.remote.tick(grids);
         }
         for grid in grids.iter_mut() {
@@ -245,6 +257,11 @@ impl Gpu {
 
     fn held(&self, losses: u64) -> Shown {
         if losses == self.losses { self.shown } else { Shown::default() }
+    }
+
+    /// Bytes that the next upload of a CPU-homed grid takes.
+    pub(crate) fn upload_bytes(&self, grid: &Grid) -> u64 {
+        self.uploads.bytes(grid.id, grid.desc.cells)
     }
 
     pub(crate) fn surface(&self) -> &SurfaceBinding {
