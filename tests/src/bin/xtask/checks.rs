@@ -12,8 +12,11 @@ use crate::{
 const WITHOUT_WGPU: [&str; 5] = ["open-water-shaders", "floating-body", "ocean-spectrum", "wave-grid", "open-water"];
 
 /// Features that need no wgpu, each by itself.
-const ALONE: [(&str, &str); 6] = [
+const ALONE: [(&str, &str); 9] = [
     ("floating-body", "mesh-files"),
+    ("floating-body", "serde"),
+    ("ocean-spectrum", "serde"),
+    ("wave-grid", "serde"),
     ("open-water", "mesh-files"),
     ("open-water", "map-files"),
     ("open-water", "rapier"),
