@@ -273,6 +273,23 @@ impl Bodies {
         Some(before.between(&now, alpha))
     }
 
+    /// What the water takes each body's store to say if nobody has changed it since the last tick.
+    #[cfg(feature = "serde")]
+    pub(crate) fn given(&self) -> impl Iterator<Item = (BodyId, crate::record::Given)> + '_ {
+        self.list.iter().map(|entry| (entry.id, entry.active.then(|| (entry.body.state(), entry.wants))))
+    }
+
+    /// What the store says else.
+    #[cfg(feature = "serde")]
+    pub(crate) fn news(&self, store: &dyn BodyStore) -> Vec<(BodyId, crate::record::Given)> {
+        let told = |id: BodyId| store.read(id).map(|state| (state, store.wants(id)));
+        self.given()
+            .map(|(id, given)| (id, told(id), given))
+            .filter(|(_, told, given)| told != given)
+            .map(|(id, told, _)| (id, told))
+            .collect()
+    }
+
     /// Takes over the store's states. Returns whether any body takes part in the tick.
     pub(crate) fn read(&mut self, store: &dyn BodyStore, dt: f32, reports: &mut Reports) -> bool {
         for entry in &mut self.list {

@@ -76,7 +76,9 @@ impl OpenWater {
     /// # Errors
     /// A value of the description is out of its range.
     pub fn add_fleet(&mut self, desc: FleetDesc) -> Result<FleetId, OpenWaterError> {
-        Ok(self.fleets.list.insert(Fleet::new(desc)?))
+        let fleet = Fleet::new(desc)?;
+        note!(self, Input::Fleet(Box::new(fleet.clone())));
+        Ok(self.fleets.list.insert(fleet))
     }
 
     /// Removes a fleet with its pieces.
@@ -84,7 +86,9 @@ impl OpenWater {
     /// # Errors
     /// There is no such fleet.
     pub fn remove_fleet(&mut self, id: FleetId) -> Result<(), OpenWaterError> {
-        self.fleets.list.remove(id).map(drop).ok_or(OpenWaterError::UnknownFleet(id))
+        self.fleets.list.remove(id).ok_or(OpenWaterError::UnknownFleet(id))?;
+        note!(self, Input::RemoveFleet(id));
+        Ok(())
     }
 
     /// A fleet as it stands after the last tick.
@@ -101,6 +105,10 @@ impl OpenWater {
     /// # Errors
     /// There is no such fleet.
     pub fn fleet_mut(&mut self, id: FleetId) -> Result<&mut Fleet, OpenWaterError> {
+        #[cfg(feature = "serde")]
+        if let Some(recorder) = &mut self.recorder {
+            recorder.touch(id);
+        }
         self.fleets.list.get_mut(id).ok_or(OpenWaterError::UnknownFleet(id))
     }
 

@@ -128,6 +128,7 @@ impl OpenWater {
         if let Some(grid) = self.grids.get_mut(id).filter(|_| place.is_finite()) {
             grid.point = Some(place);
         }
+        note!(self, Input::Point(id, place));
         Ok(())
     }
 
@@ -135,6 +136,7 @@ impl OpenWater {
     pub fn look(&mut self, look: Look) {
         if look.is_sane() {
             self.looking = Some(look);
+            note!(self, Input::Look(look));
         }
     }
 }

@@ -17,6 +17,13 @@ impl OpenWater {
     /// A value of the description is out of its range or its scheme unstable; too many grids; a GPU home without a GPU; a
     /// grid to lie in that cannot hold it.
     pub fn add_grid(&mut self, desc: GridDesc) -> Result<GridId, OpenWaterError> {
+        let id = self.new_grid(desc)?;
+        note!(self, Input::Grid(Box::new(self.grids.get(id)?.desc.clone())));
+        Ok(id)
+    }
+
+    /// As [`Self::add_grid`], by the water itself.
+    pub(crate) fn new_grid(&mut self, desc: GridDesc) -> Result<GridId, OpenWaterError> {
         desc.check_home()?;
         self.grids.check_within(&desc)?;
         self.grids.check_room()?;
@@ -111,7 +118,7 @@ impl OpenWater {
         };
         let (trail, point, middle) = (old.trail, old.point, old.middle);
         let window = old.window();
-        let new = self.add_grid(GridDesc { cells, cell_size, ..old.desc.clone() })?;
+        let new = self.new_grid(GridDesc { cells, cell_size, ..old.desc.clone() })?;
         if let Some(grid) = self.grids.get_mut(new) {
             (grid.trail, grid.point, grid.middle) = (trail, point, middle);
             let extent = DVec2::from(window.cells.map(f64::from)) * Vec2::from(window.cell_size).as_dvec2();
@@ -124,8 +131,9 @@ impl OpenWater {
         if let Some(grid) = self.grids.get_mut(id).filter(|_| waves.is_some()) {
             grid.into = Some(new);
         }
-        self.remove_grid(id)?;
+        self.end_grid(id)?;
         self.grids.cut_holes();
+        note!(self, Input::Cells(id, cells, cell_size));
         Ok(new)
     }
 
@@ -134,6 +142,13 @@ impl OpenWater {
     /// # Errors
     /// There is no such grid.
     pub fn remove_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
+        self.end_grid(id)?;
+        note!(self, Input::RemoveGrid(id));
+        Ok(())
+    }
+
+    /// As [`Self::remove_grid`], by the water itself.
+    pub(crate) fn end_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
         if self.grids.present(id)?.fades()
             && let Some(grid) = self.grids.get_mut(id)
         {

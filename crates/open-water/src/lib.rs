@@ -30,6 +30,9 @@
 //!
 //! It does not draw (see the crate `water-view`), collide bodies (a physics engine does), or make sounds.
 
+#[macro_use]
+mod note;
+
 mod bodies;
 mod clock;
 mod cpu;
@@ -51,6 +54,8 @@ mod planner;
 #[cfg(feature = "rapier")]
 pub mod rapier;
 mod rebase;
+#[cfg(feature = "serde")]
+mod record;
 mod sea;
 mod shore;
 mod snapshot;
@@ -71,6 +76,8 @@ pub use grids::MAX_GRIDS;
 pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shelter};
 pub use moorings::Mooring;
 pub use plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
+#[cfg(feature = "serde")]
+pub use record::{Replay, ReplayError};
 #[cfg(feature = "serde")]
 pub use snapshot::SnapshotError;
 pub use snapshot::WaterSnapshot;

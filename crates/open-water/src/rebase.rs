@@ -41,6 +41,7 @@ impl OpenWater {
         let origin = self.shore.origin + offset;
         check("rebase: origin", origin, FARTHEST[1], "within 1,000,000 km")?;
         self.shore.origin = origin;
+        note!(self, Input::Rebase(offset));
         if let Some(ocean) = &mut self.ocean {
             ocean.set_origin(origin);
         }
@@ -66,7 +67,9 @@ impl OpenWater {
     /// # Errors
     /// There is no such body, or the state is not finite or farther than 1000 km away; then nothing was changed.
     pub fn teleport(&mut self, id: BodyId, state: BodyState) -> Result<(), OpenWaterError> {
-        self.bodies.teleport(id, state)
+        self.bodies.teleport(id, state)?;
+        note!(self, Input::Teleport(id, state));
+        Ok(())
     }
 }
 

@@ -125,7 +125,7 @@ impl OpenWater {
     }
 
     /// Begins to make the sea of another description.
-    fn change(&mut self, desc: OpenWaterDesc, seconds: f32) -> Result<(), OpenWaterError> {
+    pub(crate) fn change(&mut self, desc: OpenWaterDesc, seconds: f32) -> Result<(), OpenWaterError> {
         self.take_sea(true)?;
         let dt = f64::from(self.clock.dt());
         let tick = self.tick + (LEAD / dt).round().max(1.0) as u64;
@@ -134,11 +134,13 @@ impl OpenWater {
             // Calm water shows none of it.
             OceanDesc { sea: OceanDesc::default().sea, ..desc.ocean() }.validate()?;
             self.desc = desc;
+            note!(self, Input::Sea(Box::new(self.desc.clone()), seconds as f32));
             return Ok(());
         };
         ocean.check_change(&desc.ocean(), start, seconds)?;
         self.desc = desc;
         self.order_sea(Order { asked: self.time(), tick, start, seconds });
+        note!(self, Input::Sea(Box::new(self.desc.clone()), seconds as f32));
         Ok(())
     }
 

@@ -30,7 +30,9 @@ impl OpenWater {
         if let Some(gpu) = &mut self.gpu {
             gpu.room_for_land(terrain.as_ref().map(|terrain| terrain.bed().size()))?;
         }
-        self.rebuild_shore(terrain)
+        self.rebuild_shore(terrain)?;
+        note!(self, Input::Land(Box::new(self.land().cloned())));
+        Ok(())
     }
 
     /// The land as it was given.
@@ -49,6 +51,7 @@ impl OpenWater {
             return Err(OpenWaterError::InvalidValue { field: "level", value, bound: "within 1000 m" });
         }
         self.shore.level = level;
+        note!(self, Input::Level(level));
         match &self.shore.terrain {
             Some(terrain) if (terrain.level - level).abs() >= LEVEL_STEP => {
                 let terrain = terrain.at_level(level);

@@ -57,6 +57,8 @@ pub struct OpenWater {
     pub(crate) looking: Option<Look>,
     pub(crate) wakes: Wakes,
     pub(crate) dry: DryHulls,
+    #[cfg(feature = "serde")]
+    pub(crate) recorder: Option<crate::record::Recorder>,
     #[cfg(feature = "gpu")]
     pub(crate) gpu: Option<crate::gpu::Gpu>,
 }
@@ -85,6 +87,8 @@ impl OpenWater {
             wakes: Wakes::default(),
             dry: DryHulls::default(),
             desc,
+            #[cfg(feature = "serde")]
+            recorder: None,
             #[cfg(feature = "gpu")]
             gpu: None,
         })
@@ -111,7 +115,9 @@ impl OpenWater {
     /// # Errors
     /// A value of the description is out of its range.
     pub fn add_body(&mut self, desc: BodyDesc) -> Result<BodyId, OpenWaterError> {
-        Ok(self.bodies.insert(Body::new(desc)?))
+        let body = Body::new(desc)?;
+        note!(self, Input::Body(Box::new(body.desc().clone())));
+        Ok(self.bodies.insert(body))
     }
 
     /// Removes a body and its moorings; a grid that followed it stays where it is.
@@ -122,6 +128,7 @@ impl OpenWater {
         self.bodies.remove(id)?;
         self.moorings.forget(id);
         self.dry.forget(id);
+        note!(self, Input::RemoveBody(id));
         Ok(())
     }
 
@@ -130,7 +137,9 @@ impl OpenWater {
     /// # Errors
     /// There is no such body, or a value of the line is out of its range.
     pub fn add_mooring(&mut self, mooring: Mooring) -> Result<MooringId, OpenWaterError> {
-        self.moorings.add(mooring, &mut self.bodies)
+        let id = self.moorings.add(mooring, &mut self.bodies)?;
+        note!(self, Input::Mooring(mooring));
+        Ok(id)
     }
 
     /// Casts a line off.
@@ -138,7 +147,9 @@ impl OpenWater {
     /// # Errors
     /// There is no such mooring; it goes with its body.
     pub fn remove_mooring(&mut self, id: MooringId) -> Result<(), OpenWaterError> {
-        self.moorings.remove(id, &mut self.bodies)
+        self.moorings.remove(id, &mut self.bodies)?;
+        note!(self, Input::RemoveMooring(id));
+        Ok(())
     }
 
     /// Tension of a mooring's line in N, mean over the last tick; 0 while it is slack.
@@ -154,7 +165,9 @@ impl OpenWater {
     /// # Errors
     /// There is no such body.
     pub fn set_controls(&mut self, id: BodyId, controls: Controls) -> Result<(), OpenWaterError> {
-        self.bodies.set_controls(id, controls)
+        self.bodies.set_controls(id, controls)?;
+        note!(self, Input::Controls(id, controls));
+        Ok(())
     }
 
     /// A body as it stands after the last tick, for reading.
@@ -197,6 +210,8 @@ impl OpenWater {
         if tick.index != expected {
             return Err(OpenWaterError::TickOutOfOrder { expected, found: tick.index });
         }
+        #[cfg(feature = "serde")]
+        self.note_tick(store);
         let eye = self.looking.map(|look| look.eye);
         let any = self.bodies.read(store, tick.dt, &mut self.reports);
         self.keep_wakes(tick.dt);
@@ -263,6 +278,7 @@ impl OpenWater {
     pub fn set_wind(&mut self, wind: Vec2) -> Result<(), OpenWaterError> {
         check_wind(wind)?;
         self.desc.wind = wind;
+        note!(self, Input::Wind(wind));
         Ok(())
     }
 

@@ -110,6 +110,7 @@ impl OpenWater {
             (None, Some(order)) => self.order_sea(*order),
             (None, None) => {}
         }
+        note!(self, Input::start(self));
         #[cfg(feature = "gpu")]
         drawn?;
         Ok(())

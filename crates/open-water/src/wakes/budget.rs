@@ -228,7 +228,7 @@ impl OpenWater {
     /// A grid around a body, instead of `old` if there is one.
     fn make(&mut self, desc: &WakesDesc, level: u32, asking: &Asking, old: Option<GridId>) -> Option<GridId> {
         let desc = GridDesc { follow: Follow::Body(asking.body), ..desc.level(level, asking.size) };
-        let id = self.add_grid(desc).ok()?;
+        let id = self.new_grid(desc).ok()?;
         let place = self.shore.world(Vec2::new(asking.place.x, asking.place.z));
         let trail = old.and_then(|old| self.grids.get(old).ok()).map_or(DVec2::ZERO, |old| old.trail);
         if let Some(grid) = self.grids.get_mut(id) {
@@ -244,7 +244,7 @@ impl OpenWater {
     }
 
     fn end(&mut self, wakes: &mut Wakes, grid: GridId, cells: u64) {
-        if self.remove_grid(grid).is_ok() && self.grids.get(grid).is_ok() {
+        if self.end_grid(grid).is_ok() && self.grids.get(grid).is_ok() {
             wakes.fading.push((grid, cells));
         }
     }

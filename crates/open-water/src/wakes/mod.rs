@@ -225,6 +225,7 @@ impl OpenWater {
         wakes.told.clear();
         wakes.desc = desc;
         self.wakes = wakes;
+        note!(self, Input::Wakes(Box::new(self.wakes.desc.clone())));
         Ok(())
     }
 

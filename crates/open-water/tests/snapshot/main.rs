@@ -2,6 +2,7 @@
 #![cfg(feature = "serde")]
 
 mod joiner;
+mod record;
 mod rollback;
 mod scene;
 mod shore;
