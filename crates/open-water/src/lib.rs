@@ -61,6 +61,7 @@ mod shore;
 mod snapshot;
 mod store;
 mod stores;
+mod trace;
 mod wakes;
 mod water;
 
@@ -71,7 +72,7 @@ pub use desc::{Consumers, GridDesc, GridHome, OpenWaterDesc, Preset, View};
 pub use error::OpenWaterError;
 pub use follow::{Follow, Look};
 #[cfg(feature = "gpu")]
-pub use gpu::DeviceLoss;
+pub use gpu::{DeviceLoss, GpuTimes};
 pub use grids::MAX_GRIDS;
 pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shelter};
 pub use moorings::Mooring;

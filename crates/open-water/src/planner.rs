@@ -5,6 +5,7 @@ use crate::dry::DryMark;
 use crate::grids::{Grid, Sim};
 use crate::land::ShoreMark;
 use crate::plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
+use crate::trace::{detail, span};
 use crate::water::OpenWater;
 
 /// What the GPU holds after the last `encode`, so that it is not made again.
@@ -43,6 +44,7 @@ impl OpenWater {
     /// What the next `encode` will run for these views and readers, and what it will leave out and why. Views and
     /// readers decide what is drawn, never what is simulated.
     pub fn plan(&self, views: &[View], consumers: Consumers) -> FramePlan {
+        span!("plan", tick = self.tick, views = views.len());
         let facts = self.facts();
         let mut plan =
             FramePlan { time: self.drawn_time(), tick: self.tick, alpha: self.clock.alpha(), ..FramePlan::default() };
@@ -67,6 +69,7 @@ impl OpenWater {
         {
             plan.work.insert(0, Work::Table);
         }
+        detail!(dispatches = plan.dispatches(), upload_bytes = plan.upload_bytes(), skipped = plan.skipped.len());
         plan
     }
 

@@ -17,6 +17,7 @@ use crate::land::Shore;
 use crate::moorings::{Mooring, Moorings};
 use crate::sea::Coming;
 use crate::store::{BodyId, BodyStore, MooringId};
+use crate::trace::{span, warning};
 use crate::wakes::Wakes;
 
 /// What went out of the ordinary since the start; nothing of it is an error.
@@ -197,6 +198,9 @@ impl OpenWater {
     pub fn advance(&mut self, frame_dt: f32) -> Ticks {
         let ticks = self.clock.advance(frame_dt);
         self.reports.dropped_secs += ticks.dropped_secs;
+        if ticks.dropped_secs > 0.0 {
+            warning!(dropped_secs = ticks.dropped_secs, "the frame was too long: time was dropped");
+        }
         ticks
     }
 
@@ -210,6 +214,7 @@ impl OpenWater {
         if tick.index != expected {
             return Err(OpenWaterError::TickOutOfOrder { expected, found: tick.index });
         }
+        span!("tick", index = tick.index, bodies = self.bodies.len(), grids = self.grids.iter().len());
         #[cfg(feature = "serde")]
         self.note_tick(store);
         let eye = self.looking.map(|look| look.eye);

@@ -60,6 +60,12 @@ pub fn is_alive(device: &wgpu::Device) -> bool {
     tried.get_mapped_range(..).is_ok() | now(memory.pop()).is_some()
 }
 
+/// Lets what has come back from a device be noted. Never waits; a lost device brings nothing back.
+#[expect(clippy::disallowed_methods, reason = "`Poll` does not wait")]
+pub(super) fn poll(device: &wgpu::Device) {
+    let _ = device.poll(wgpu::PollType::Poll);
+}
+
 /// A fault to be tried out.
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

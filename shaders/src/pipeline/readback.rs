@@ -3,6 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 
+use super::guard::poll;
+
 const FREE: u8 = 0;
 const IN_FLIGHT: u8 = 1;
 const READY: u8 = 2;
@@ -107,7 +109,7 @@ impl<S: Copy + Default> Readback<S> {
     /// the first copy has come.
     pub fn poll(&mut self, device: &wgpu::Device) -> Option<Reading<'_, S>> {
         // A lost device delivers nothing: the latest result stays, with its stamp.
-        let _ = device.poll(wgpu::PollType::Poll);
+        poll(device);
         for slot in &self.slots {
             if slot.state.load(Ordering::Acquire) != READY {
                 continue;

@@ -10,6 +10,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 
+use super::guard::poll;
+
 /// Frames under way at most; a host has 1 to 4, each of one encoder or some.
 pub const MAX_FRAMES: usize = 8;
 
@@ -111,7 +113,7 @@ impl Staging {
             return false;
         }
         // A lost device brings nothing back: frames are then declined for good.
-        let _ = self.device.poll(wgpu::PollType::Poll);
+        poll(&self.device);
         self.frames_away() >= MAX_FRAMES
     }
 

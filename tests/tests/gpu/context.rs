@@ -37,6 +37,11 @@ impl Context {
         Self::with_features(wgpu::Features::empty())
     }
 
+    /// The optional features that there are.
+    pub(crate) fn features() -> wgpu::Features {
+        adapter().features()
+    }
+
     /// Likewise with optional features (for measurements).
     pub(crate) fn with_features(features: wgpu::Features) -> Self {
         Self::of(adapter(), features, wgpu::Limits::default())

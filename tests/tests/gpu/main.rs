@@ -16,6 +16,7 @@ mod ocean_surface;
 mod readback;
 mod shaders;
 mod surface;
+mod times;
 mod view_land;
 mod view_picture;
 mod view_stage;

@@ -3,6 +3,7 @@
 //! It runs no shader: what is drawn is tested in the binary `gpu`.
 
 mod device;
+mod spans;
 
 use device::Device;
 use floating_body::FleetDesc;

@@ -8,8 +8,10 @@ use open_water_shaders::pipeline::{Frame, is_alive};
 
 use super::Gpu;
 use super::grids::RemoteGrids;
+use super::timer::Timer;
 use crate::grids::{Grids, Sim};
 use crate::plan::{FramePlan, Work};
+use crate::trace::warning;
 
 /// What the compute pass holds.
 #[derive(Debug, Clone, Copy, Default)]
@@ -29,6 +31,9 @@ impl Gpu {
         grids: &mut Grids,
         encoder: &mut wgpu::CommandEncoder,
     ) -> bool {
+        if let Some(timer) = &mut self.timer {
+            timer.poll(&self.device);
+        }
         if plan.work.is_empty() {
             return true;
         }
@@ -38,6 +43,9 @@ impl Gpu {
         if encoded.is_none() && !staging.is_full() {
             // Nothing can be written: the device is lost, or has no memory left.
             self.lost = !is_alive(&self.device);
+            if self.lost {
+                warning!(tick = plan.tick, "the device is lost");
+            }
         }
         self.staging = Some(staging);
         encoded.is_some()
@@ -47,7 +55,10 @@ impl Gpu {
         let parts = self.upload(plan, ocean, grids, frame);
         let Parts { fields, looks, steps, draw } = parts;
         if fields || steps || draw {
-            let of = wgpu::ComputePassDescriptor { label: Some("water"), ..Default::default() };
+            let of = wgpu::ComputePassDescriptor {
+                label: Some("water"),
+                timestamp_writes: self.timer.as_ref().map(Timer::around),
+            };
             let mut pass = frame.encoder.begin_compute_pass(&of);
             if let Some(ocean) = &self.ocean {
                 if fields {
@@ -57,11 +68,18 @@ impl Gpu {
                     ocean.record_looks(&mut pass);
                 }
             }
+            if let Some(timer) = &self.timer {
+                timer.between(&mut pass);
+            }
             if steps {
                 self.remote.record_steps(&mut pass);
             }
             if draw {
                 self.remote.record_draw(&mut pass);
+            }
+            drop(pass);
+            if let Some(timer) = &mut self.timer {
+                timer.finish(frame.encoder, plan);
             }
         }
         if steps {

@@ -2,6 +2,7 @@
 
 use super::limits;
 use crate::plan::FramePlan;
+use crate::trace::{span, warning};
 use crate::water::OpenWater;
 
 impl OpenWater {
@@ -27,6 +28,7 @@ impl OpenWater {
     /// [`MAX_FRAMES`]: open_water_shaders::pipeline::MAX_FRAMES
     /// [`Reports::behind`]: crate::Reports::behind
     pub fn encode(&mut self, plan: &FramePlan, encoder: &mut wgpu::CommandEncoder) {
+        span!("encode", tick = plan.tick, dispatches = plan.dispatches(), upload_bytes = plan.upload_bytes());
         if let Some(gpu) = &mut self.gpu
             && plan.work.contains(&crate::Work::Table)
         {
@@ -37,6 +39,7 @@ impl OpenWater {
             && !gpu.encode(plan, self.ocean.as_ref(), &mut self.grids, encoder)
         {
             self.reports.behind += u64::from(!gpu.lost);
+            warning!(behind = self.reports.behind, lost = gpu.lost, "the frame's GPU work was left out");
         }
     }
 

@@ -12,6 +12,7 @@ mod limits;
 mod mirror;
 mod sea;
 mod surface;
+mod timer;
 mod uploads;
 
 use floating_body::DryHull;
@@ -28,6 +29,8 @@ use crate::planner::Shown;
 use crate::store::BodyId;
 pub use fault::DeviceLoss;
 use surface::SurfaceBinding;
+pub use timer::GpuTimes;
+use timer::Timer;
 use uploads::Uploads;
 
 pub(crate) struct Gpu {
@@ -51,6 +54,7 @@ pub(crate) struct Gpu {
     /// Time of the last looks, seconds: foam fades by the difference.
     looks_time: f64,
     uploads: Uploads,
+    timer: Option<Timer>,
 }
 
 impl Gpu {
@@ -78,6 +82,7 @@ impl Gpu {
                 dry: 0,
                 looks_time: 0.0,
                 uploads: Uploads::default(),
+                timer: Timer::new(device, queue),
             })
         })
     }
