@@ -72,6 +72,15 @@ impl Grid {
         }
     }
 
+    /// Age (s) and standard deviation (m) of a sample at a local point; `None` where it is exact.
+    pub(crate) fn doubt(&self, point: Vec2) -> Option<[f32; 2]> {
+        match &self.sim {
+            Sim::Cpu(_) => None,
+            #[cfg(feature = "gpu")]
+            Sim::Gpu(grid) => grid.doubt(point).map(|[age, error]| [age, self.gain * error]),
+        }
+    }
+
     /// A bound of its waves between two local corners, now and after the next tick, metres.
     pub(crate) fn largest_within(&self, low: Vec2, high: Vec2) -> f32 {
         match &self.sim {
@@ -277,6 +286,13 @@ impl Grids {
 
     pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Grid> {
         self.list.iter_mut()
+    }
+
+    /// The oldest age (s) and the standard deviation (m) of the sum of all grids at a local point.
+    pub(crate) fn doubt(&self, point: Vec2) -> [f32; 2] {
+        let all = self.list.iter().filter_map(|grid| grid.doubt(point));
+        let [age, square] = all.fold([0.0f32; 2], |[age, sum], [a, error]| [age.max(a), sum + error * error]);
+        [age, square.sqrt()]
     }
 
     /// One that was removed is found until it has faded.

@@ -241,7 +241,7 @@ impl OpenWater {
         }
         #[cfg(feature = "gpu")]
         if let Some(gpu) = &mut self.gpu {
-            gpu.tick_grids(&mut self.grids);
+            gpu.tick_grids(&mut self.grids, tick.index);
         }
         self.grids.cut_holes();
         self.note_hulls();

@@ -31,6 +31,18 @@ impl Hole {
         Self { gain: if gain > 0.0 { gain.min(1.0) } else { 0.0 }, ..self }
     }
 
+    /// The fade at a world place along one axis (0 along x, 1 along z), metres: the product of both axes' and of
+    /// [`Self::gain`] is what is shown of a height.
+    pub fn fade(&self, axis: usize, place: f64) -> f32 {
+        let t = ((place - self.low[axis]).min(self.high[axis] - place) / self.rise[axis]).clamp(0.0, 1.0);
+        (t * t * (3.0 - 2.0 * t)) as f32
+    }
+
+    /// Factor on the heights, 0 to 1.
+    pub fn gain(&self) -> f32 {
+        self.gain
+    }
+
     /// Low ends, high ends and rise in cells of a window from its corner, and the factor.
     #[cfg(feature = "gpu")]
     pub(crate) fn in_cells(&self, window: &Window) -> ([[f32; 2]; 3], f32) {
@@ -43,11 +55,7 @@ impl Hole {
     fn along(&self, window: &Window, axis: usize, out: &mut Vec<f32>) {
         let (h, first) = (window.h()[axis], window.corner[axis] as f64 + 0.5);
         out.clear();
-        out.extend((0..window.cells[axis]).map(|i| {
-            let x = (first + f64::from(i)) * h;
-            let t = ((x - self.low[axis]).min(self.high[axis] - x) / self.rise[axis]).clamp(0.0, 1.0);
-            (t * t * (3.0 - 2.0 * t)) as f32
-        }));
+        out.extend((0..window.cells[axis]).map(|i| self.fade(axis, (first + f64::from(i)) * h)));
     }
 }
 

@@ -87,17 +87,31 @@ impl<S: Copy + Default> Readback<S> {
         bytes: u64,
         stamp: S,
     ) -> bool {
+        self.encode_parts(encoder, &[(source, offset, bytes)], stamp)
+    }
+
+    /// As [`Self::encode`], of several parts (buffer, offset, bytes), which come back one after the other.
+    pub fn encode_parts(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        parts: &[(&wgpu::Buffer, u64, u64)],
+        stamp: S,
+    ) -> bool {
         let free = self.slots.iter_mut().find(|slot| slot.state.load(Ordering::Acquire) == FREE);
         let Some(slot) = free else {
             self.dropped += 1;
             return false;
         };
-        slot.bytes = bytes.min(slot.buffer.size());
+        slot.bytes = 0;
         slot.stamp = stamp;
         slot.sequence = self.next_sequence;
         self.next_sequence += 1;
         slot.state.store(IN_FLIGHT, Ordering::Release);
-        encoder.copy_buffer_to_buffer(source, offset, &slot.buffer, 0, slot.bytes);
+        for (source, offset, bytes) in parts {
+            let bytes = (*bytes).min(slot.buffer.size() - slot.bytes);
+            encoder.copy_buffer_to_buffer(source, *offset, &slot.buffer, slot.bytes, bytes);
+            slot.bytes += bytes;
+        }
         let flight = Flight(slot.state.clone());
         encoder.map_buffer_on_submit(&slot.buffer, wgpu::MapMode::Read, 0..slot.bytes, move |result| {
             flight.land(result.is_ok());

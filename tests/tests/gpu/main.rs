@@ -7,6 +7,7 @@ mod context;
 mod fault;
 mod grid_dispersive;
 mod grid_draw;
+mod grid_home;
 mod grid_medium;
 mod grid_query;
 mod grid_step;

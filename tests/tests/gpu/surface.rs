@@ -258,7 +258,7 @@ fn a_grid_homed_on_the_gpu_comes_back_with_its_age() {
     };
     let rms =
         |a: &[f32], b: &[f32]| (a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f32>() / a.len() as f32).sqrt();
-    let (age, on_cpu, _) = run(GridHome::Cpu);
+    let (age, on_cpu, truth) = run(GridHome::Cpu);
     assert_eq!(age, Some(0));
     let (age, on_gpu, back) = run(GridHome::Gpu);
     assert!(matches!(age, Some(1..=4)), "{age:?}");
@@ -266,5 +266,6 @@ fn a_grid_homed_on_the_gpu_comes_back_with_its_age() {
     assert!(size > 0.002, "no waves: {size} m");
     // The float does not feel its own waves, so it moves alike and makes the same ones.
     assert!(rms(&on_gpu, &on_cpu) < 1e-3 * size, "{} of {size}", rms(&on_gpu, &on_cpu));
-    assert!(rms(&on_gpu, &back) < 1e-5, "{} of {size}", rms(&on_gpu, &back));
+    // Carried on over a tick.
+    assert!(rms(&back, &truth) < 0.02 * size, "{} of {size}", rms(&back, &truth));
 }

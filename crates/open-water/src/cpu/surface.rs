@@ -28,12 +28,18 @@ pub struct WaterSample {
     pub folded: bool,
     /// Whether there is water: false on dry land and where the land says so.
     pub wet: bool,
+    /// How long ago the heights were known from which it was carried on to the last tick, seconds: 0 for the ambient sea and
+    /// grids homed on the CPU, some frames for one homed on the GPU.
+    pub age: f32,
+    /// Standard deviation of the height that is to be expected of that, metres: 0 with them, infinite in the first frames
+    /// of waves on the GPU, of which nothing is known yet.
+    pub error: f32,
 }
 
 impl Default for WaterSample {
     /// Calm water.
     fn default() -> Self {
-        Self { height: 0.0, normal: Vec3::Y, velocity: Vec3::ZERO, folded: false, wet: true }
+        Self { height: 0.0, normal: Vec3::Y, velocity: Vec3::ZERO, folded: false, wet: true, age: 0.0, error: 0.0 }
     }
 }
 
@@ -70,12 +76,15 @@ impl Composite<'_> {
                 add(grid, points, 1.0, &mut sum[..n]);
             }
             for (((out, a), g), point) in out.iter_mut().zip(&ambient).zip(&sum[..n]).zip(points) {
+                let [age, error] = self.grids.doubt(*point);
                 *out = WaterSample {
                     height: self.shore.level + a.height + g.height,
                     normal: tilt(a.normal, g.slope),
                     velocity: a.velocity + Vec3::Y * g.vertical_velocity,
                     folded: a.folded,
                     wet: !self.shore.is_dry(*point),
+                    age,
+                    error,
                 };
             }
         }

@@ -7,7 +7,6 @@ use ocean_spectrum::gpu::GpuOcean;
 use open_water_shaders::pipeline::{Frame, is_alive};
 
 use super::Gpu;
-use super::grids::RemoteGrids;
 use super::timer::Timer;
 use crate::grids::{Grids, Sim};
 use crate::plan::{FramePlan, Work};
@@ -85,9 +84,7 @@ impl Gpu {
         if steps {
             self.remote.finish_steps(frame);
         }
-        if draw {
-            RemoteGrids::finish_draw(frame, self.surface.pool(), plan, grids);
-        }
+        self.remote.finish_copies(frame, grids);
     }
 
     fn upload(&mut self, plan: &FramePlan, ocean: Option<&Ocean>, grids: &mut Grids, frame: &mut Frame<'_>) -> Parts {

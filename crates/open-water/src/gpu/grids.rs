@@ -1,12 +1,12 @@
 //! Grids that are stepped on the GPU: commands from the ticks go there, drawn heights come back some frames later.
 //!
-//! Nothing waits: a sample is as old as the last copy that has arrived, and says so.
+//! Nothing waits: a sample is carried on from the last copy that has arrived, and says how old that is.
 
 use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
-use open_water_shaders::pipeline::{Frame, Readback};
-use wave_grid::gpu::{GpuGridId, GpuGrids};
+use open_water_shaders::pipeline::{Frame, Readback, Reading};
+use wave_grid::gpu::{GpuGridId, GpuGrids, Stored};
 use wave_grid::{GridSample, Hole, Medium, Source, Window};
 
 use super::mirror::Mirror;
@@ -15,8 +15,8 @@ use crate::grids::{Grids, Sim};
 use crate::plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
 use crate::water::OpenWater;
 
-/// Copies under way at most.
-const SLOTS: usize = 3;
+/// Copies under way at most: of four frames in flight, and of the one that is being encoded.
+const SLOTS: usize = 5;
 
 /// Where and when a copy was made.
 #[derive(Debug, Clone, Copy, Default)]
@@ -37,12 +37,29 @@ pub(crate) struct RemoteGrid {
     holes: Vec<Hole>,
     sources: Vec<Source>,
     ring: Readback<Stamp>,
+    /// The tick that was copied last.
+    copied: u64,
     mirror: Mirror,
 }
 
 impl RemoteGrid {
     pub(crate) fn sample(&self, points: &[Vec2], out: &mut [GridSample]) {
-        self.mirror.sample(points, out);
+        self.mirror.sample(points, &self.hole, &self.holes, out);
+    }
+
+    /// Age (s) and standard deviation (m) of a sample at a local point; `None` where nothing is shown.
+    pub(crate) fn doubt(&self, point: Vec2) -> Option<[f32; 2]> {
+        if !self.awake {
+            return None;
+        }
+        match self.mirror.tick() {
+            Some(_) => self.mirror.doubt(point, &self.hole),
+            None => {
+                let place = self.mirror.origin + point.as_dvec2();
+                let seen = (0..2).all(|k| self.hole.fade(k, place[k]) > 0.0);
+                seen.then_some([0.0, f32::INFINITY])
+            }
+        }
     }
 
     pub(crate) fn window(&self) -> Window {
@@ -92,17 +109,27 @@ pub(crate) struct RemoteGrids {
     grids: GpuGrids,
     /// What is drawn, and where in the pool.
     draws: Vec<(GpuGridId, u32)>,
+    /// The last tick queued.
+    tick: u64,
+    /// Heights on their way from a copy.
+    heights: [Vec<f32>; 2],
 }
 
 impl RemoteGrids {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        Self { device: device.clone(), grids: GpuGrids::new(device), draws: Vec::new() }
+        Self {
+            device: device.clone(),
+            grids: GpuGrids::new(device),
+            draws: Vec::new(),
+            tick: 0,
+            heights: Default::default(),
+        }
     }
 
     pub(crate) fn add(&mut self, desc: wave_grid::GridDesc) -> Result<RemoteGrid, OpenWaterError> {
         let id = self.grids.insert(desc)?;
         let window = self.grids.window(id);
-        let bytes = u64::from(desc.cells[0]) * u64::from(desc.cells[1]) * size_of::<[f32; 2]>() as u64;
+        let bytes = 2 * self.grids.height_bytes(id);
         Ok(RemoteGrid {
             id,
             window,
@@ -113,7 +140,8 @@ impl RemoteGrids {
             holes: Vec::new(),
             sources: Vec::new(),
             ring: Readback::new(&self.device, "grid readback", bytes, SLOTS),
-            mirror: Mirror::new(desc.cells, desc.cell_size),
+            copied: 0,
+            mirror: Mirror::new(desc.cells, desc.cell_size, desc.tick),
         })
     }
 
@@ -155,9 +183,10 @@ impl RemoteGrids {
         self.grids.set_medium(medium);
     }
 
-    /// Passes on what the tick brought, queues one tick of all grids, and takes what has come back.
-    pub(crate) fn tick(&mut self, grids: &mut Grids) {
+    /// Passes on what tick number `tick` brought, queues it for all grids, and takes what has come back.
+    pub(crate) fn tick(&mut self, grids: &mut Grids, tick: u64) {
         let mut any = false;
+        self.tick = tick;
         for grid in grids.iter_mut() {
             let Sim::Gpu(remote) = &mut grid.sim else { continue };
             any = true;
@@ -171,16 +200,30 @@ impl RemoteGrids {
             remote.window = self.grids.window(remote.id);
             remote.hole = self.grids.hole(remote.id, 1.0);
             remote.awake = !self.grids.is_asleep(remote.id);
-            if let Some(reading) = remote.ring.poll(&self.device) {
-                remote.mirror.take(reading.stamp.tick, reading.stamp.corner, reading.bytes);
-            }
-            if !remote.awake {
+            self.take(remote);
+            if remote.awake {
+                remote.mirror.follow(tick);
+            } else {
                 remote.mirror.still();
             }
         }
         if any {
             self.grids.tick();
         }
+    }
+
+    /// Takes what has come back of a grid.
+    fn take(&mut self, remote: &mut RemoteGrid) {
+        let Some(Reading { stamp, bytes }) = remote.ring.poll(&self.device) else { return };
+        let Self { grids, heights, .. } = self;
+        remote.mirror.take(stamp.tick, remote.window.corner, |out| {
+            for (heights, bytes) in heights.iter_mut().zip(bytes.chunks_exact((bytes.len() / 2).max(1))) {
+                heights.clear();
+                heights.extend(bytes.as_chunks::<4>().0.iter().map(|bytes| f32::from_ne_bytes(*bytes)));
+            }
+            let [now, before] = &*heights;
+            grids.arrange(remote.id, stamp.corner, [now, before], out)
+        });
     }
 
     /// Uploads what was queued. Returns whether there is something to step.
@@ -223,24 +266,29 @@ impl RemoteGrids {
         self.grids.record_draw(pass);
     }
 
-    /// Copies what was drawn for the way back.
-    pub(crate) fn finish_draw(frame: &mut Frame<'_>, pool: &wgpu::Buffer, plan: &FramePlan, grids: &mut Grids) {
+    /// Copies the heights of the last tick for the way back, each tick once.
+    pub(crate) fn finish_copies(&self, frame: &mut Frame<'_>, grids: &mut Grids) {
         for grid in grids.iter_mut() {
-            let (base, bytes) = (u64::from(grid.base) * size_of::<[f32; 2]>() as u64, grid.pool_bytes());
             if let Sim::Gpu(remote) = &mut grid.sim
                 && remote.awake
+                && remote.copied != self.tick
+                && let Some(Stored { buffer, offsets: [now, before], bytes }) = self.grids.stored(remote.id)
             {
-                let stamp = Stamp { tick: plan.tick, corner: remote.window.corner };
-                // Dropped when the GPU is too far behind: the mirror just gets older.
-                let _ = remote.ring.encode(frame.encoder, pool, base, bytes, stamp);
+                let stamp = Stamp { tick: self.tick, corner: remote.window.corner };
+                let parts = [(buffer, now, bytes), (buffer, before, bytes)];
+                // Left out when the GPU is too far behind: the mirror just gets older.
+                if remote.ring.encode_parts(frame.encoder, &parts, stamp) {
+                    remote.copied = self.tick;
+                }
             }
         }
     }
 }
 
 impl OpenWater {
-    /// How many ticks old the CPU's samples of a grid are: 0 for a CPU-homed one, `None` for a GPU-homed one of which
-    /// nothing has come back yet (it samples as calm).
+    /// How many ticks old the heights are from which samples of a grid are carried on: 0 for a CPU-homed one, `None` for a
+    /// GPU-homed one of which nothing has come back since its waves began, or that has none (it samples as calm). See
+    /// [`WaterSample::age`](crate::WaterSample::age).
     ///
     /// # Errors
     /// There is no such grid.

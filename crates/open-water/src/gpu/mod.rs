@@ -2,11 +2,13 @@
 //!
 //! Everything that runs on the GPU is decided by [`FramePlan`](crate::FramePlan) and recorded by `encode.rs`.
 
+mod carry;
 mod dry;
 mod encode;
 mod fault;
 pub(crate) mod grids;
 mod host;
+mod judge;
 pub(crate) mod land;
 mod limits;
 mod mirror;
@@ -184,15 +186,16 @@ impl Gpu {
         }
     }
 
-    /// Ticks the grids that are homed here, and notes where the others have waves; on a lost device these are calm.
-    pub(crate) fn tick_grids(&mut self, grids: &mut Grids) {
+    /// Runs tick number `tick` of the grids that are homed here, and notes where the others have waves; on a lost device
+    /// these are calm.
+    pub(crate) fn tick_grids(&mut self, grids: &mut Grids, tick: u64) {
         if !self.lost {
             for grid in grids.iter() {
                 if let Sim::Cpu(waves) = &grid.sim {
                     self.uploads.note(grid.id, waves);
                 }
             }
-            return self.remote.tick(grids);
+            return self.remote.tick(grids, tick);
         }
         for grid in grids.iter_mut() {
             if let Sim::Gpu(grid) = &mut grid.sim {

@@ -26,6 +26,14 @@ pub(crate) fn fill<const N: usize>(mut heights: [&mut [f32]; N], tiles: &Tiles, 
     }
 }
 
+/// Fills all near walls in each of `heights`.
+#[cfg(feature = "gpu")]
+pub(crate) fn fill_all<const N: usize>(mut heights: [&mut [f32]; N], cells: &Cells) {
+    for at in (0..cells.a.len()).filter(|at| cells.a[*at] == NEAR_WALL) {
+        fill_cell(&mut heights, cells, at % cells.nx, at / cells.nx);
+    }
+}
+
 fn fill_cell<const N: usize>(heights: &mut [&mut [f32]; N], cells: &Cells, i: usize, j: usize) {
     let (nx, nz) = (cells.nx, cells.nz);
     let mut sums = [0.0f32; N];

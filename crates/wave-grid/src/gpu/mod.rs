@@ -1,4 +1,4 @@
-//! Grids homed on the GPU: stepped there, drawn there, never read back here.
+//! Grids homed on the GPU: stepped there, drawn there; what is read back is read back by the host's copies.
 //!
 //! All grids share their state buffers and one list of tiles, so a tick costs one dispatch that lists the busy tiles, one
 //! that prepares and two for each sub-step (tiles without and with cells of the layer), however many grids there are; where
@@ -11,6 +11,7 @@ mod activity;
 mod buffers;
 mod encode;
 mod grid;
+mod heights;
 mod holes;
 mod land;
 mod pack;
@@ -39,6 +40,7 @@ use pass::Passes;
 use query::Queries;
 use water::{Bases, Water};
 
+pub use heights::Stored;
 pub use open_water_shaders::pipeline::{Frame, Staging};
 pub use query::{Answer, MAX_QUERY_POINTS};
 
