@@ -125,7 +125,9 @@ impl OpenWater {
         if self.grids.present(id)?.desc.follow != Follow::Point {
             return Err(OpenWaterError::NotAPoint(id));
         }
-        if let Some(grid) = self.grids.get_mut(id).filter(|_| place.is_finite()) {
+        // Waves that leave do so in the same window.
+        let meant = |grid: &&mut Grid| grid.id == id || (grid.ebbs() && grid.into == Some(id));
+        for grid in self.grids.iter_mut().filter(meant).filter(|_| place.is_finite()) {
             grid.point = Some(place);
         }
         note!(self, Input::Point(id, place));

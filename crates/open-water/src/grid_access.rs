@@ -149,6 +149,10 @@ impl OpenWater {
 
     /// As [`Self::remove_grid`], by the water itself.
     pub(crate) fn end_grid(&mut self, id: GridId) -> Result<(), OpenWaterError> {
+        self.grids.present(id)?;
+        for grid in self.grids.iter_mut().filter(|grid| grid.ebbs() && grid.into == Some(id)) {
+            grid.ebb = Some(0.0);
+        }
         if self.grids.present(id)?.fades()
             && let Some(grid) = self.grids.get_mut(id)
         {

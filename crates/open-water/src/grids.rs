@@ -35,6 +35,8 @@ pub(crate) struct Grid {
     pub(crate) leaving: bool,
     /// The grid that it fades into meanwhile: both hold the same waves.
     pub(crate) into: Option<GridId>,
+    /// Seconds left to waves that leave a grid whose home has changed.
+    pub(crate) ebb: Option<f32>,
     /// Where its middle stands from the body that it follows, metres.
     pub(crate) trail: DVec2,
     /// World place of the local origin, metres.
@@ -309,6 +311,17 @@ impl Grids {
         self.list.iter_mut().find(|grid| grid.id == id)
     }
 
+    /// Two grids.
+    pub(crate) fn two(&mut self, first: GridId, second: GridId) -> [Option<&mut Grid>; 2] {
+        let mut found = [None, None];
+        for grid in &mut self.list {
+            if let Some(at) = [first, second].iter().position(|id| *id == grid.id) {
+                found[at] = Some(grid);
+            }
+        }
+        found
+    }
+
     /// Refuses one grid too many.
     pub(crate) fn check_room(&self) -> Result<(), OpenWaterError> {
         if self.list.len() >= MAX_GRIDS {
@@ -330,6 +343,7 @@ impl Grids {
             gain: 1.0,
             leaving: false,
             into: None,
+            ebb: None,
             trail: DVec2::ZERO,
             origin: DVec2::ZERO,
             point: None,
@@ -363,12 +377,15 @@ impl Grids {
         let mut gone = Vec::new();
         for at in 0..self.list.len() {
             let grid = &mut self.list[at];
-            if !grid.leaving {
+            if !grid.leaving || grid.ebb_on(dt) {
                 continue;
+            }
+            if grid.ebbs() && !grid.is_awake() {
+                grid.gain = 0.0;
             }
             // Never again as much as the grid it fades into has taken over.
             grid.gain = (grid.gain - dt / FADE).max(0.0);
-            let (id, gain, into) = (grid.id, grid.gain, grid.into);
+            let (id, gain, into) = (grid.id, grid.gain, grid.into.filter(|_| !grid.ebbs()));
             if let Some(next) = into.and_then(|into| self.get_mut(into)).filter(|next| !next.leaving) {
                 next.gain = 1.0 - gain;
             }

@@ -46,6 +46,7 @@ mod gpu;
 mod grid_access;
 mod grids;
 mod handover;
+mod home;
 mod land;
 mod moorings;
 mod nested;

@@ -60,7 +60,7 @@ impl Grids {
     /// The grids that take the waves of bodies at home in one.
     pub(crate) fn taking(&mut self, home: GridId) -> impl Iterator<Item = &mut Grid> {
         let root = self.get(home).map(|grid| grid.root).ok();
-        self.iter_mut().filter(move |grid| Some(grid.root) == root || grid.into == Some(home))
+        self.iter_mut().filter(move |grid| !grid.ebbs() && (Some(grid.root) == root || grid.into == Some(home)))
     }
 
     /// What lay in a grid that is gone lies in what that one lay in.

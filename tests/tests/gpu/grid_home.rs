@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use glam::{Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Border, Consumers, Follow, GridDesc, GridHome, GridId, Hull, OpenWater,
-    Scheme, WaterSample,
+    OpenWaterError, Scheme, WaterSample,
 };
 
 use crate::context::Context;
@@ -132,4 +132,76 @@ fn a_device_that_stalls_holds_up_nothing() {
         }
     }
     assert!(scene.water.reports().behind > 0);
+}
+
+#[test]
+fn a_grid_changes_its_home_without_a_step() {
+    let context = Context::new();
+    let points = places();
+    for (scheme, homes) in [
+        (Scheme::Dispersive, [GridHome::Cpu, GridHome::Gpu]),
+        (Scheme::Dispersive, [GridHome::Gpu, GridHome::Cpu]),
+        (Scheme::NinePoint, [GridHome::Cpu, GridHome::Gpu]),
+    ] {
+        let (mut scene, grid) = dropped(Some(&context), homes[0], scheme);
+        let (mut twin, _) = dropped(None, GridHome::Cpu, scheme);
+        let mut worst = 0.0f32;
+        let mut largest = 0.0f32;
+        for frame in 0..110 {
+            if frame == 40 {
+                scene.water.set_grid_home(grid, homes[1]).unwrap();
+                scene.water.set_grid_home(grid, homes[1]).unwrap();
+                assert_eq!(scene.water.grid_count(), 1);
+            }
+            scene.frame(None, DT, Consumers::empty());
+            twin.frame(None, DT, Consumers::empty());
+            // The twin answers for the last tick.
+            let mut plan = scene.water.plan(&view(), Consumers::empty());
+            plan.alpha = 1.0;
+            context.submit(|encoder| scene.water.encode(&plan, encoder));
+            if (36..50).contains(&frame) || frame % 12 == 0 {
+                let drawn = crate::surface::probe(&context, &scene.water, &points);
+                for (drawn, truth) in drawn.iter().zip(sampled(&twin.water, &points)) {
+                    worst = worst.max((drawn[0] - truth.height).abs());
+                    largest = largest.max(truth.height.abs());
+                }
+            }
+        }
+        assert!(largest > 0.01, "{largest}");
+        assert!(worst < 1e-3, "{scheme:?} {homes:?}: {worst} of {largest}");
+        assert_eq!(scene.water.grid(grid).unwrap().is_some(), homes[1] == GridHome::Cpu);
+        // Both bodies moved alike.
+        let [a, b] = [&scene, &twin].map(|scene| scene.store.get(scene.boat).unwrap().position);
+        assert!(a.distance(b) < 1e-3, "{a} {b}");
+        scene.water.remove_grid(grid).unwrap();
+    }
+}
+
+#[test]
+fn a_home_that_cannot_be_is_refused() {
+    let context = Context::new();
+    let (mut scene, grid) = dropped(Some(&context), GridHome::Cpu, Scheme::NinePoint);
+    let inner = GridDesc { within: Some(grid), cells: [64; 2], cell_size: [0.1; 2], ..near() };
+    let inner = scene.water.add_grid(inner).unwrap();
+    let spectral = scene.water.add_grid(GridDesc { scheme: Scheme::Spectral, ..near() }).unwrap();
+    let walled = scene.water.add_grid(GridDesc { border: Border::Reflecting, ..near() }).unwrap();
+    let count = scene.water.grid_count();
+    for id in [grid, inner, spectral, walled] {
+        assert!(scene.water.set_grid_home(id, GridHome::Gpu).is_err());
+        assert!(scene.water.grid(id).unwrap().is_some());
+    }
+    assert_eq!(scene.water.grid_count(), count);
+    let (mut headless, grid) = dropped(None, GridHome::Cpu, Scheme::NinePoint);
+    assert!(matches!(headless.water.set_grid_home(grid, GridHome::Gpu), Err(OpenWaterError::NoGpu)));
+    assert!(headless.water.set_grid_home(GridId::default(), GridHome::Gpu).is_err());
+}
+
+fn near() -> GridDesc {
+    GridDesc {
+        follow: Follow::Point,
+        cells: [96; 2],
+        border: Border::Absorbing { width: 8 },
+        scheme: Scheme::NinePoint,
+        ..GridDesc::default()
+    }
 }

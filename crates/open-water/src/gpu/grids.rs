@@ -156,11 +156,16 @@ impl RemoteGrids {
         let middle =
             |k: usize| (window.corner[k] as f64 + 0.5 * f64::from(window.cells[k])) * f64::from(window.cell_size[k]);
         self.grids.set_nested(grid.id, old.nested);
-        self.grids.center_on(grid.id, DVec2::new(middle(0), middle(1)));
-        grid.window = self.grids.window(grid.id);
-        grid.hole = self.grids.hole(grid.id, 1.0);
+        self.stand(grid, DVec2::new(middle(0), middle(1)));
         grid.nested = old.nested;
         grid.holes.clone_from(&old.holes);
+    }
+
+    /// A calm grid stands around a world place at once.
+    pub(crate) fn stand(&mut self, grid: &mut RemoteGrid, place: DVec2) {
+        self.grids.center_on(grid.id, place);
+        grid.window = self.grids.window(grid.id);
+        grid.hole = self.grids.hole(grid.id, 1.0);
     }
 
     /// Takes back what was added last, for which there was no room.

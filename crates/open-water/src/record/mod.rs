@@ -14,7 +14,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::store::BodyStore;
 use crate::water::OpenWater;
-use crate::{BodyId, FleetId, GridDesc, GridId, Land, Look, Mooring, MooringId, OpenWaterDesc, WakesDesc, Wants};
+use crate::{
+    BodyId, FleetId, GridDesc, GridHome, GridId, Land, Look, Mooring, MooringId, OpenWaterDesc, WakesDesc, Wants,
+};
 pub use replay::{Replay, ReplayError};
 
 /// What a recording begins with.
@@ -44,6 +46,7 @@ pub(crate) enum Input {
     Grid(Box<GridDesc>),
     RemoveGrid(GridId),
     Cells(GridId, [u32; 2], [f32; 2]),
+    Home(GridId, GridHome),
     Point(GridId, DVec2),
     Look(Look),
     Wakes(Box<Option<WakesDesc>>),

@@ -175,6 +175,7 @@ impl<R: Read> Replay<R> {
             Input::Grid(desc) => drop(water.add_grid(*desc)?),
             Input::RemoveGrid(id) => water.remove_grid(id)?,
             Input::Cells(id, cells, cell_size) => drop(water.set_grid_cells(id, cells, cell_size)?),
+            Input::Home(id, home) => water.set_grid_home(id, home)?,
             Input::Point(id, place) => water.set_follow_point(id, place)?,
             Input::Look(look) => water.look(look),
             Input::Wakes(desc) => water.set_wakes(*desc)?,

@@ -29,6 +29,7 @@ pub(super) struct GridMoment {
     gain: f32,
     leaving: bool,
     into: Option<GridId>,
+    ebb: Option<f32>,
     trail: DVec2,
     point: Option<DVec2>,
     middle: Vec2,
@@ -37,8 +38,22 @@ pub(super) struct GridMoment {
 impl GridMoment {
     /// A grid with these waves, or with none yet.
     pub(super) fn of(grid: &Grid, waves: impl FnOnce(&WaveGrid) -> GridSnapshot) -> Self {
-        let Grid { id, root, desc, sim, base: _, origin: _, gain, leaving, into, trail, point, middle, feeding: _ } =
-            grid;
+        let Grid {
+            id,
+            root,
+            desc,
+            sim,
+            base: _,
+            origin: _,
+            gain,
+            leaving,
+            into,
+            ebb,
+            trail,
+            point,
+            middle,
+            feeding: _,
+        } = grid;
         let window = grid.window();
         let extent = DVec2::from(window.cells.map(f64::from)) * Vec2::from(window.cell_size).as_dvec2();
         Self {
@@ -54,6 +69,7 @@ impl GridMoment {
             gain: *gain,
             leaving: *leaving,
             into: *into,
+            ebb: *ebb,
             trail: *trail,
             point: *point,
             middle: *middle,
@@ -62,7 +78,8 @@ impl GridMoment {
 
     fn is_sane(&self) -> bool {
         let places = [self.stands, self.trail, self.point.unwrap_or_default(), self.middle.as_dvec2()];
-        (0.0..=1.0).contains(&self.gain) && places.iter().all(|place| place.is_finite())
+        let ebbs = self.ebb.is_none_or(f32::is_finite);
+        ebbs && (0.0..=1.0).contains(&self.gain) && places.iter().all(|place| place.is_finite())
     }
 }
 
@@ -143,7 +160,8 @@ impl GridsMoment {
                 }
                 (Source::Here, None) => continue,
             };
-            let GridMoment { id, root, desc, waves, stands: _, gain, leaving, into, trail, point, middle } = moment;
+            let GridMoment { id, root, desc, waves, stands: _, gain, leaving, into, ebb, trail, point, middle } =
+                moment;
             let mut grid = Grid {
                 id: *id,
                 root: *root,
@@ -154,6 +172,7 @@ impl GridsMoment {
                 gain: *gain,
                 leaving: *leaving,
                 into: *into,
+                ebb: *ebb,
                 trail: *trail,
                 point: *point,
                 middle: *middle,

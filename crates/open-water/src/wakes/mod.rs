@@ -89,6 +89,13 @@ impl std::fmt::Display for Wake {
     }
 }
 
+impl Wakes {
+    /// Whether a grid is one of these.
+    pub(crate) fn owns(&self, id: GridId) -> bool {
+        self.told.values().any(|wake| matches!(wake, Wake::Grid { grid, .. } if *grid == id))
+    }
+}
+
 fn cells_of(desc: &GridDesc) -> u64 {
     u64::from(desc.cells[0]) * u64::from(desc.cells[1])
 }
