@@ -14,6 +14,8 @@ pub const MAX_CASCADES: usize = 8;
 pub const MAX_GRIDS: usize = 32;
 /// Most hulls that are kept dry at once.
 pub const MAX_DRY: usize = 16;
+/// A pixel as wide as this share of a cascade's tile, or wider, shades nothing of it.
+pub const SHADING_END: f32 = 0.09;
 /// See [`SurfaceTable::hidden_slope`].
 pub const HIDDEN_SLOPE_BIAS: u32 = 6;
 /// Most rounds of Newton's method that invert the horizontal displacement, after two rough ones of
@@ -163,7 +165,7 @@ pub const PARAMS: &[crate::ParamLayout] = &[
 pub fn constants(group: u32) -> String {
     format!(
         "override SURFACE_LAND: bool = true;\nconst MAX_CASCADES: u32 = {MAX_CASCADES}u;\nconst MAX_GRIDS: u32 = {MAX_GRIDS}u;\nconst MAX_DRY: u32 = {MAX_DRY}u;\nconst CHOP_ROUNDS: u32 = {CHOP_ROUNDS}u;\n\
-         const CHOP_LAST_STEP: f32 = {CHOP_LAST_STEP};\nconst CHOP_LEAST_STEP: f32 = {CHOP_LEAST_STEP};\nconst CHOP_LEAST_SLOPE: f32 = {CHOP_LEAST_SLOPE};\nconst HIDDEN_SLOPE_BIAS: f32 = {HIDDEN_SLOPE_BIAS}.0;\n\
+         const CHOP_LAST_STEP: f32 = {CHOP_LAST_STEP};\nconst CHOP_LEAST_STEP: f32 = {CHOP_LEAST_STEP};\nconst CHOP_LEAST_SLOPE: f32 = {CHOP_LEAST_SLOPE};\nconst HIDDEN_SLOPE_BIAS: f32 = {HIDDEN_SLOPE_BIAS}.0;\nconst SHADING_END: f32 = {SHADING_END};\n\
          @group({group}) @binding(0) var<uniform> surface_table: SurfaceTable;\n\
          @group({group}) @binding(1) var surface_displacement: texture_2d_array<f32>;\n\
          @group({group}) @binding(2) var surface_derivative: texture_2d_array<f32>;\n\

@@ -3,7 +3,7 @@
 @compute @workgroup_size(THREADS)
 fn ocean_first(@builtin(global_invocation_id) id: vec3<u32>) {
     let t = id.x % THREADS_OF_STAGE;
-    let place = place_of_row(id.z, id.x / THREADS_OF_STAGE);
+    let place = place_of_row(2u * id.z, id.x / THREADS_OF_STAGE);
     if place.line >= N {
         return;
     }

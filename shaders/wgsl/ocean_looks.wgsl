@@ -48,7 +48,7 @@ fn look1(layer: u32, p1: vec2<u32>) -> vec4<f32> {
 
 @compute @workgroup_size(8, 8)
 fn ocean_looks(@builtin(global_invocation_id) id: vec3<u32>) {
-    let layer = id.z;
+    let layer = (id.z >> 1u) + (id.z & 1u) * ocean.cascade_count;
     if any(id.xy >= vec2<u32>(N / 4u)) {
         return;
     }

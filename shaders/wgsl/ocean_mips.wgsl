@@ -21,7 +21,7 @@ fn mip1(layer: u32, p1: vec2<u32>) -> vec4<f32> {
 
 @compute @workgroup_size(8, 8)
 fn ocean_mips(@builtin(global_invocation_id) id: vec3<u32>) {
-    let layer = id.z;
+    let layer = (id.z >> 1u) + (id.z & 1u) * (textureNumLayers(finer) / 2u);
     if any(id.xy >= vec2<u32>(SIDE / 4u)) {
         return;
     }

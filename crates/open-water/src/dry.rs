@@ -82,12 +82,22 @@ impl DryHulls {
         &self.rasters
     }
 
-    /// The bodies whose hulls are nearest to any of the views; the first ones without a view.
-    pub(crate) fn plan(&self, views: &[View], place: impl Fn(BodyId) -> Option<Vec3>) -> DryPlan {
+    /// The bodies whose hulls are nearest to any of the views, the first ones without a view; and how many are too far to be
+    /// seen.
+    pub(crate) fn plan(
+        &self,
+        views: &[View],
+        place: impl Fn(BodyId) -> Option<Vec3>,
+        seen: impl Fn(&Dry, Vec3) -> bool,
+    ) -> (DryPlan, usize) {
         let mut near = ArrayVec::<(f32, BodyId), MAX_DRY>::new();
-        let mut of = 0;
-        for Dry { body, .. } in &self.list {
+        let (mut of, mut far) = (0, 0);
+        for dry @ Dry { body, .. } in &self.list {
             let Some(place) = place(*body) else { continue };
+            if !seen(dry, place) {
+                far += 1;
+                continue;
+            }
             of += 1;
             let off = views.iter().map(|view| view.eye.distance_squared(place)).fold(f32::INFINITY, f32::min);
             let at = near.iter().position(|(other, _)| off < *other).unwrap_or(near.len());
@@ -98,7 +108,15 @@ impl DryHulls {
                 near.insert(at, (off, *body));
             }
         }
-        DryPlan { bodies: near.into_iter().map(|(_, body)| body).collect(), of, changes: self.changes }
+        (DryPlan { bodies: near.into_iter().map(|(_, body)| body).collect(), of, changes: self.changes }, far)
+    }
+}
+
+impl Dry {
+    /// The longest distance within it, metres.
+    pub(crate) fn size(&self) -> f32 {
+        let (low, high) = self.hull.bounds();
+        low.distance(high)
     }
 }
 

@@ -57,6 +57,7 @@ pub mod rapier;
 mod rebase;
 #[cfg(feature = "serde")]
 mod record;
+mod rules;
 mod sea;
 mod shore;
 mod snapshot;
@@ -73,13 +74,14 @@ pub use desc::{Consumers, GridDesc, GridHome, OpenWaterDesc, Preset, View};
 pub use error::OpenWaterError;
 pub use follow::{Follow, Look};
 #[cfg(feature = "gpu")]
-pub use gpu::{DeviceLoss, GpuTimes};
+pub use gpu::{DeviceLoss, Encoded, GpuTimes};
 pub use grids::MAX_GRIDS;
 pub use land::{Damping, DepthMap, DepthScale, Land, Obstacle, ObstacleKind, Shelter};
 pub use moorings::Mooring;
-pub use plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
+pub use plan::{FramePlan, MAX_WORK, Reason, Skipped, SkippedWork, Work};
 #[cfg(feature = "serde")]
 pub use record::{Replay, ReplayError};
+pub use rules::Rules;
 #[cfg(feature = "serde")]
 pub use snapshot::SnapshotError;
 pub use snapshot::WaterSnapshot;

@@ -4,16 +4,19 @@
 
 use std::fmt;
 
+use arrayvec::ArrayVec;
+
 use crate::GridId;
 use crate::dry::DryPlan;
+use crate::grids::MAX_GRIDS;
 use crate::land::ShoreMark;
 
 /// A piece of GPU work of a frame.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Work {
     /// The cascades' spectra at the drawn time, and their transforms.
     Ocean {
-        /// Number of cascades, the longest first.
+        /// Number of cascades that are made, the longest first.
         cascades: u32,
     },
     /// Half-float mips and foam of the cascades, for looks.
@@ -25,12 +28,12 @@ pub enum Work {
         /// Size of the upload.
         bytes: u64,
     },
-    /// All awake GPU-homed grids are stepped.
+    /// All awake GPU-homed grids are stepped, whether somebody looks or not.
     GridSteps {
         /// Dispatches of the ticks since the last frame.
         dispatches: u32,
     },
-    /// All awake GPU-homed grids' heights at alpha go to the pool.
+    /// Heights at alpha of GPU-homed grids go to the pool, and from there to the CPU.
     GridDraw {
         /// How many grids.
         grids: u32,
@@ -53,6 +56,10 @@ pub enum Reason {
     Asleep,
     /// The same moment was encoded before.
     Unchanged,
+    /// It has moved by less than a quarter of the finest pixel since it was made.
+    Still,
+    /// No view is near enough to resolve it.
+    BelowAPixel,
     /// The water was made without a device.
     Headless,
     /// The device is lost: see [`OpenWater::replace_device`](crate::OpenWater::replace_device).
@@ -67,6 +74,8 @@ impl fmt::Display for Reason {
             Self::NotAskedFor => "not asked for",
             Self::Asleep => "asleep",
             Self::Unchanged => "unchanged",
+            Self::Still => "moved by less than a quarter of a pixel",
+            Self::BelowAPixel => "below a pixel",
             Self::Headless => "headless",
             Self::DeviceLost => "the device is lost",
         })
@@ -74,7 +83,7 @@ impl fmt::Display for Reason {
 }
 
 /// What was left out, and why.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skipped {
     /// The work that is not done.
     pub work: SkippedWork,
@@ -87,13 +96,28 @@ pub struct Skipped {
 pub enum SkippedWork {
     /// The ambient sea on the GPU.
     Ocean,
+    /// The shortest cascades of the sea.
+    Cascades {
+        /// How many.
+        count: u32,
+    },
     /// Mips and foam of the sea.
     OceanLooks,
     /// A grid's upload, steps or drawing.
     Grid(GridId),
+    /// Hulls that are to be kept dry.
+    DryHulls {
+        /// How many.
+        count: u32,
+    },
 }
 
-/// The GPU work of one frame. `Display` prints it in a few lines.
+/// Most pieces of work of a frame: the table, the sea and its looks, an upload for each grid or steps and drawing.
+pub const MAX_WORK: usize = MAX_GRIDS + 5;
+
+/// The GPU work of one frame. `Display` prints it in a few lines. Plain data of a few KiB, without memory of its own.
+///
+/// It may be encoded late, more than once or never: what is there no more is left out then.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FramePlan {
     /// The drawn time, seconds since the start.
@@ -103,15 +127,30 @@ pub struct FramePlan {
     /// How far the drawn moment lies between the last two ticks.
     pub alpha: f32,
     /// What will run, in order.
-    pub work: Vec<Work>,
+    pub work: ArrayVec<Work, MAX_WORK>,
     /// What will not.
-    pub skipped: Vec<Skipped>,
+    pub skipped: ArrayVec<Skipped, MAX_WORK>,
     pub(crate) dispatches: u32,
+    /// Grids that are drawn.
+    pub(crate) listed: ArrayVec<GridId, MAX_GRIDS>,
     pub(crate) shore: ShoreMark,
     pub(crate) dry: DryPlan,
 }
 
 impl FramePlan {
+    /// There is room for all that a water may have: see [`MAX_WORK`].
+    pub(crate) fn run(&mut self, work: Work) {
+        let _ = self.work.try_push(work);
+    }
+
+    pub(crate) fn skip(&mut self, work: SkippedWork, reason: Reason) {
+        let _ = self.skipped.try_push(Skipped { work, reason });
+    }
+
+    pub(crate) fn list(&mut self, grid: GridId) {
+        let _ = self.listed.try_push(grid);
+    }
+
     /// Number of compute dispatches that `encode` will record.
     pub fn dispatches(&self) -> u32 {
         self.dispatches
@@ -145,7 +184,9 @@ impl fmt::Display for FramePlan {
             match work {
                 SkippedWork::Ocean => write!(f, "\n- ocean: {reason}")?,
                 SkippedWork::OceanLooks => write!(f, "\n- mips and foam: {reason}")?,
+                SkippedWork::Cascades { count } => write!(f, "\n- the {count} shortest cascades: {reason}")?,
                 SkippedWork::Grid(_) => write!(f, "\n- grid: {reason}")?,
+                SkippedWork::DryHulls { count } => write!(f, "\n- {count} dry hulls: {reason}")?,
             }
         }
         Ok(())

@@ -15,6 +15,7 @@ use crate::follow::Look;
 use crate::grids::Grids;
 use crate::land::Shore;
 use crate::moorings::{Mooring, Moorings};
+use crate::rules::Rules;
 use crate::sea::Coming;
 use crate::store::{BodyId, BodyStore, MooringId};
 use crate::trace::{span, warning};
@@ -60,6 +61,7 @@ pub struct OpenWater {
     pub(crate) dry: DryHulls,
     #[cfg(feature = "serde")]
     pub(crate) recorder: Option<crate::record::Recorder>,
+    pub(crate) rules: Rules,
     #[cfg(feature = "gpu")]
     pub(crate) gpu: Option<crate::gpu::Gpu>,
 }
@@ -87,6 +89,7 @@ impl OpenWater {
             looking: None,
             wakes: Wakes::default(),
             dry: DryHulls::default(),
+            rules: Rules::default(),
             desc,
             #[cfg(feature = "serde")]
             recorder: None,
@@ -258,6 +261,9 @@ impl OpenWater {
     /// Makes what bodies and fleets will read of the sea, on all threads; their tasks would wait for whichever asks first.
     fn prepare_sea(&mut self) {
         let Some(ocean) = &mut self.ocean else { return };
+        if !self.rules.contains(Rules::UNREAD) {
+            return ocean.prepare(Outputs::ALL);
+        }
         match (self.bodies.reads(), self.fleets.smallest()) {
             (Some(Reads::Samples), _) => ocean.prepare(Outputs::ALL),
             (Some(Reads::Patches(radius)), least) => ocean.prepare_patches(least.map_or(radius, |l| l.min(radius))),

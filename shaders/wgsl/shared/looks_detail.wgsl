@@ -1,7 +1,7 @@
 // How much of a cascade a pixel shades: once many of its tiles fit into the picture their repetition would show, so it
 // fades and its slopes become roughness.
 fn shading_weight(index: u32, footprint: f32) -> f32 {
-    return 1.0 - smoothstep(0.02, 0.09, footprint / surface_table.cascades[index].tile);
+    return 1.0 - smoothstep(0.02, SHADING_END, footprint / surface_table.cascades[index].tile);
 }
 
 // Ripples finer than the last cascade's texels, where a pixel would show them: the cascade itself, shrunk.

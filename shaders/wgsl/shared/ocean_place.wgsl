@@ -1,6 +1,6 @@
-// The cascades of a dispatch: FIRST_CASCADE and those after it.
+// The cascades of a dispatch: FIRST_CASCADE and those after it, each with two layers one after the other, so that fewer
+// workgroups along z leave the last cascades out.
 override FIRST_CASCADE: u32 = 0u;
-override CASCADES: u32;
 // Rows and columns that hold modes in none of them are known when the pipeline is made, and not read at all:
 // `HALF..N - HALF + 1`. N: any may.
 override HALF: u32 = N;
@@ -17,8 +17,8 @@ struct Place {
 }
 
 fn place_of(z: u32, line: u32) -> Place {
-    let pair = select(0u, 1u, z >= CASCADES);
-    let cascade = FIRST_CASCADE + z - pair * CASCADES;
+    let pair = z & 1u;
+    let cascade = FIRST_CASCADE + (z >> 1u);
     let half = ocean.cascades[cascade].half;
     return Place(cascade, pair, cascade + pair * ocean.cascade_count, line, half, ocean.cascades[cascade].wave_step);
 }

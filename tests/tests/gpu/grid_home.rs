@@ -17,7 +17,7 @@ pub(crate) fn dropped(context: Option<&Context>, home: GridHome, scheme: Scheme)
         Some(context) => OpenWater::new(&context.device, &context.queue, calm()).unwrap(),
         None => OpenWater::headless(calm()).unwrap(),
     };
-    let mut scene = Scene { water, store: BodyStates::default(), boat: BodyId::default() };
+    let mut scene = Scene { water, store: BodyStates::default(), boat: BodyId::default(), floats: Vec::new() };
     let hull = Hull::cuboid(Vec3::splat(1.0)).unwrap();
     scene.boat = scene.water.add_body(BodyDesc::from_hull(&hull, 500.0)).unwrap();
     let follow = Follow::Body(scene.boat);

@@ -15,6 +15,7 @@ mod ocean_fields;
 mod ocean_looks;
 mod ocean_surface;
 mod readback;
+mod rules;
 mod shaders;
 mod surface;
 mod times;

@@ -94,7 +94,7 @@ fn fields_match_the_cpu_at_every_size() {
         ocean.set_time(1_234.5);
         for kernel in [FftKernel::Lines, FftKernel::Stages] {
             let mut gpu = GpuOcean::with_kernel(&context.device, &ocean, kernel).expect("fits");
-            let dispatches = gpu.field_dispatches();
+            let dispatches = gpu.field_dispatches(gpu.cascades());
             // Stages: the last cascade is filled to its edge and does not share dispatches with the others.
             assert!(dispatches == 2 || kernel == FftKernel::Stages && dispatches <= 8, "{dispatches} dispatches");
             let layers = fields(&context, &mut gpu, &ocean, 1_234.5);
@@ -169,13 +169,13 @@ fn the_middle_of_a_change_matches_the_cpu() {
         let mut ocean = Ocean::new(from.clone()).expect("valid");
         let mut gpu = GpuOcean::new(&context.device, &ocean).expect("fits");
         let before = fields(&context, &mut gpu, &ocean, 90.0);
-        let plain_dispatches = gpu.field_dispatches();
+        let plain_dispatches = gpu.field_dispatches(gpu.cascades());
         ocean.change_to(to, 100.0, 60.0).expect("same cascades");
         // Before, in the middle of, after the change; and back.
         for t in [90.0, 100.0, 117.0, 150.0, 161.0, 130.0, 90.0] {
             ocean.set_time(t);
             let layers = fields(&context, &mut gpu, &ocean, t);
-            assert_eq!(gpu.field_dispatches(), plain_dispatches, "mixing takes no dispatch");
+            assert_eq!(gpu.field_dispatches(gpu.cascades()), plain_dispatches, "mixing takes no dispatch");
             for c in 0..2 {
                 let want = ocean.fields(c);
                 for (layer, want) in [(c, want.displacement), (c + 2, want.derivative)] {

@@ -9,8 +9,8 @@ mod uploads;
 
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyId, BodyState, BodyStates, Border, Consumers, Controls, Follow, FramePlan, GridDesc, GridHome, Hull,
-    OpenWater, OpenWaterDesc, Preset, Reason, Scheme, SkippedWork, View, WaterSample, Work,
+    BodyDesc, BodyId, BodyState, BodyStates, Border, Consumers, Controls, Encoded, Follow, FramePlan, GridDesc,
+    GridHome, Hull, OpenWater, OpenWaterDesc, Preset, Reason, Scheme, SkippedWork, View, WaterSample, Work,
 };
 use open_water_shaders::pipeline::{Slot, bind_group, compute_pipeline, group_layout};
 use open_water_shaders::surface;
@@ -34,6 +34,7 @@ pub(crate) struct Scene {
     pub(crate) water: OpenWater,
     pub(crate) store: BodyStates,
     pub(crate) boat: BodyId,
+    pub(crate) floats: Vec<BodyId>,
 }
 
 /// A boat with its grid and a few floats.
@@ -56,15 +57,21 @@ pub(crate) fn scene(context: Option<&Context>, desc: OpenWaterDesc) -> Scene {
         })
         .unwrap();
     let float = Hull::cuboid(Vec3::splat(0.6)).unwrap();
-    for i in 0..8 {
+    let floats = (0..8).map(|i| {
         let id = water.add_body(BodyDesc::from_hull(&float, 100.0)).unwrap();
         let at = Vec3::new(i as f32 * 1.5 - 4.0, 0.0, 3.0);
         store.insert(id, BodyState::at_rest(at));
-    }
-    Scene { water, store, boat }
+        id
+    });
+    let floats = floats.collect();
+    Scene { water, store, boat, floats }
 }
 
 impl Scene {
+    pub(crate) fn states(&self) -> Vec<BodyState> {
+        [&self.boat].into_iter().chain(&self.floats).filter_map(|id| self.store.get(*id).copied()).collect()
+    }
+
     pub(crate) fn frame(&mut self, context: Option<&Context>, dt: f32, consumers: Consumers) -> FramePlan {
         for tick in self.water.advance(dt) {
             self.water.tick(tick, &mut self.store).unwrap();
@@ -162,6 +169,7 @@ fn an_empty_scene_runs_nothing() {
         assert_eq!((plan.work.len(), plan.dispatches(), plan.upload_bytes()), (0, 0, 0), "{plan}");
         assert_eq!(plan.skipped[0].reason, Reason::Calm);
         context.submit(|encoder| water.encode(&plan, encoder));
+        assert_eq!(water.encoded(), Encoded::default());
     }
     let found = probe(&context, &water, &[Vec2::ZERO, Vec2::new(1e4, -3.0)]);
     assert!(found.iter().all(|f| f[..2] == [0.0, 0.0] && f[2] == 1.0), "{found:?}");
@@ -228,7 +236,7 @@ fn a_grid_homed_on_the_gpu_comes_back_with_its_age() {
     let context = Context::new();
     let run = |home: GridHome| {
         let water = OpenWater::new(&context.device, &context.queue, calm()).unwrap();
-        let mut scene = Scene { water, store: BodyStates::default(), boat: BodyId::default() };
+        let mut scene = Scene { water, store: BodyStates::default(), boat: BodyId::default(), floats: Vec::new() };
         let hull = Hull::cuboid(Vec3::splat(1.0)).unwrap();
         let dropped = scene.water.add_body(BodyDesc::from_hull(&hull, 500.0)).unwrap();
         let follow = Follow::Body(dropped);

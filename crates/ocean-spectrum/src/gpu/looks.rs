@@ -102,8 +102,24 @@ impl Looks {
         std::iter::once(pass(LOOKS.name, read + written)).chain(mips).collect()
     }
 
-    /// Records one dispatch, or all.
-    pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>, shape: Shape, only: Option<usize>) {
+    /// Number of dispatches.
+    pub(super) fn count(&self) -> u32 {
+        1 + self.mips.len() as u32
+    }
+
+    /// Records one dispatch, or all, for so many cascades, the longest first. Returns how many were recorded.
+    pub(super) fn record(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        shape: Shape,
+        only: Option<usize>,
+        cascades: u32,
+    ) -> u32 {
+        let layers = 2 * cascades.min(shape.count);
+        if layers == 0 {
+            return 0;
+        }
+        let mut recorded = 0;
         let (pipeline, group) = &self.first;
         let stages = self.mips.iter().map(|mips| (&mips.pipeline, &mips.group, mips.side));
         let all = std::iter::once((pipeline, group, shape.size)).chain(stages).enumerate();
@@ -111,8 +127,10 @@ impl Looks {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, group, &[]);
             let blocks = side.div_ceil(BLOCK);
-            pass.dispatch_workgroups(blocks, blocks, shape.layers());
+            pass.dispatch_workgroups(blocks, blocks, layers);
+            recorded += 1;
         }
+        recorded
     }
 }
 

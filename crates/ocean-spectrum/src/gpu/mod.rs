@@ -162,14 +162,15 @@ impl GpuOcean {
         frame.write(&self.params_buffer, 0, bytemuck::bytes_of(&params));
     }
 
-    /// Records the synthesis of the fields.
-    pub fn record_fields(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.synthesis.record(pass, None);
+    /// Records the synthesis of the fields of `cascades` cascades, the longest first; the others keep what they hold. Returns
+    /// the number of dispatches.
+    pub fn record_fields(&self, pass: &mut wgpu::ComputePass<'_>, cascades: u32) -> u32 {
+        self.synthesis.record(pass, None, cascades)
     }
 
-    /// Records the looks of the fields synthesised before.
-    pub fn record_looks(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.looks.record(pass, self.shape, None);
+    /// Records the looks of the fields synthesised before, of as many cascades. Returns the number of dispatches.
+    pub fn record_looks(&self, pass: &mut wgpu::ComputePass<'_>, cascades: u32) -> u32 {
+        self.looks.record(pass, self.shape, None, cascades)
     }
 
     /// Fields and looks at time `t` in one compute pass; see [`Self::set_time`].
@@ -177,8 +178,8 @@ impl GpuOcean {
         self.set_time(frame, ocean, t, foam_dt);
         let of = wgpu::ComputePassDescriptor { label: Some("ocean"), timestamp_writes: None };
         let mut pass = frame.encoder.begin_compute_pass(&of);
-        self.record_fields(&mut pass);
-        self.record_looks(&mut pass);
+        self.record_fields(&mut pass, self.shape.count);
+        self.record_looks(&mut pass, self.shape.count);
     }
 
     /// Fields alone at time `t` in one compute pass: for when nothing looks at foam or filtered fields.
@@ -186,7 +187,7 @@ impl GpuOcean {
         self.set_time(frame, ocean, t, 0.0);
         let of = wgpu::ComputePassDescriptor { label: Some("ocean fields"), timestamp_writes: None };
         let mut pass = frame.encoder.begin_compute_pass(&of);
-        self.record_fields(&mut pass);
+        self.record_fields(&mut pass, self.shape.count);
     }
 
     /// The dispatches of [`Self::record_fields`], in order.
@@ -204,19 +205,19 @@ impl GpuOcean {
     pub fn record_one(&self, pass: &mut wgpu::ComputePass<'_>, index: usize) {
         let fields = self.synthesis.passes().count();
         match index.checked_sub(fields) {
-            None => self.synthesis.record(pass, Some(index)),
-            Some(index) => self.looks.record(pass, self.shape, Some(index)),
-        }
+            None => self.synthesis.record(pass, Some(index), self.shape.count),
+            Some(index) => self.looks.record(pass, self.shape, Some(index), self.shape.count),
+        };
     }
 
-    /// Number of dispatches of [`Self::record_fields`].
-    pub fn field_dispatches(&self) -> u32 {
-        self.synthesis.passes().count() as u32
+    /// Number of dispatches of [`Self::record_fields`] of so many cascades.
+    pub fn field_dispatches(&self, cascades: u32) -> u32 {
+        self.synthesis.count(cascades)
     }
 
     /// Number of dispatches of [`Self::record_looks`].
     pub fn look_dispatches(&self) -> u32 {
-        self.looks.passes(self.shape).len() as u32
+        self.looks.count()
     }
 
     /// Number of cascades.

@@ -82,7 +82,7 @@ pub(super) fn steps(kernel: FftKernel, shape: Shape, class: &Class, mixed: bool)
     // 16 bytes of amplitudes and 4 of turns a cell, for a cascade or (lines) for each of its layers.
     let modes = |readers: u64| cells(rows, rows) / 2 * readers * if mixed { 40 } else { 20 };
     let step = |pass, constants: &[(&'static str, f64)], workgroups, bytes| {
-        let own = [("N", size.into()), ("FIRST_CASCADE", class.cascades.start.into()), ("CASCADES", cascades.into())];
+        let own = [("N", size.into()), ("FIRST_CASCADE", class.cascades.start.into())];
         Step { pass, constants: [&own, constants].concat(), workgroups, bytes }
     };
     let (is_mixed, half) = (("MIXED", f64::from(u8::from(mixed))), ("HALF", f64::from(class.half)));

@@ -1,5 +1,7 @@
 //! Modes to fields: one dispatch per stage, each from one texture to the next.
 
+use std::ops::Range;
+
 use open_water_shaders::ocean::OceanParams;
 use open_water_shaders::pipeline::{Frame, Slot, bind_group, compute_pipeline, group_layout};
 
@@ -207,13 +209,26 @@ impl Synthesis {
         self.dispatches().map(|dispatch| &dispatch.info)
     }
 
-    /// Records one dispatch, or all.
-    pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>, only: Option<usize>) {
+    /// The dispatches of so many cascades, the longest first.
+    pub(super) fn count(&self, cascades: u32) -> u32 {
+        self.passes().filter(|pass| pass.cascades.start < cascades).count() as u32
+    }
+
+    /// Records one dispatch, or all, for so many cascades, the longest first. Returns how many were recorded.
+    pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>, only: Option<usize>, cascades: u32) -> u32 {
         let chosen = self.dispatches().enumerate().filter(|(i, _)| only.is_none_or(|only| *i == only));
-        for (_, Dispatch { pipeline, group, workgroups: [x, z], .. }) in chosen {
+        let mut recorded = 0;
+        for (_, Dispatch { pipeline, group, workgroups: [x, z], info }) in chosen {
+            let Range { start, end } = info.cascades;
+            let wanted = cascades.clamp(start, end) - start;
+            if wanted == 0 {
+                continue;
+            }
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, group, &[]);
-            pass.dispatch_workgroups(*x, 1, *z);
+            pass.dispatch_workgroups(*x, 1, z / (end - start) * wanted);
+            recorded += 1;
         }
+        recorded
     }
 }

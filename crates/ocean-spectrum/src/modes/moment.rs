@@ -159,6 +159,12 @@ impl Ocean {
         (4.0 * deviation) as f32
     }
 
+    /// As [`Self::significant_height`], of some cascades alone.
+    pub fn significant_height_of(&self, cascades: std::ops::Range<usize>) -> f32 {
+        let layers = self.layers.get(cascades).unwrap_or_default();
+        4.0 * layers.iter().map(|layer| layer.band.variance).sum::<f32>().sqrt()
+    }
+
     /// Period of the spectrum's peak, seconds. During a change, between the two seas'.
     pub fn peak_period(&self) -> f32 {
         self.between(WaveSpectrum::peak_period) as f32

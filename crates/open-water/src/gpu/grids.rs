@@ -12,7 +12,9 @@ use wave_grid::{GridSample, Hole, Medium, Source, Window};
 use super::mirror::Mirror;
 use crate::OpenWaterError;
 use crate::grids::{Grids, Sim};
-use crate::plan::{FramePlan, Reason, Skipped, SkippedWork, Work};
+use crate::plan::{FramePlan, Reason, SkippedWork, Work};
+use crate::planner::Shown;
+use crate::rules;
 use crate::water::OpenWater;
 
 /// Copies under way at most: of four frames in flight, and of the one that is being encoded.
@@ -236,9 +238,9 @@ impl RemoteGrids {
         self.grids.upload(frame)
     }
 
-    /// Steps it.
-    pub(crate) fn record_steps(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.grids.record(pass);
+    /// Steps it. Returns the number of dispatches.
+    pub(crate) fn record_steps(&self, pass: &mut wgpu::ComputePass<'_>) -> u32 {
+        self.grids.record(pass)
     }
 
     /// Notes that it was stepped.
@@ -246,7 +248,7 @@ impl RemoteGrids {
         self.grids.finish(frame);
     }
 
-    /// Uploads what to draw of every awake grid. Returns whether there is something to draw.
+    /// Uploads what to draw of the grids that the plan lists. Returns whether there is something to draw.
     pub(crate) fn upload_draw(
         &mut self,
         frame: &mut Frame<'_>,
@@ -257,7 +259,7 @@ impl RemoteGrids {
         self.draws.clear();
         for grid in grids.iter() {
             if let Sim::Gpu(remote) = &grid.sim
-                && remote.awake
+                && plan.listed.contains(&grid.id)
             {
                 self.draws.push((remote.id, grid.base));
                 self.grids.set_holes(remote.id, &remote.holes);
@@ -266,9 +268,9 @@ impl RemoteGrids {
         self.grids.upload_draw(frame, pool, &self.draws, plan.alpha)
     }
 
-    /// Draws into the pool.
-    pub(crate) fn record_draw(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.grids.record_draw(pass);
+    /// Draws into the pool. Returns the number of dispatches.
+    pub(crate) fn record_draw(&self, pass: &mut wgpu::ComputePass<'_>) -> u32 {
+        self.grids.record_draw(pass)
     }
 
     /// Copies the heights of the last tick for the way back, each tick once.
@@ -305,30 +307,38 @@ impl OpenWater {
     }
 
     /// GPU-homed grids step and come back whether anybody looks or not: else the water would depend on the view.
-    pub(crate) fn plan_remote(&self, plan: &mut FramePlan) {
+    pub(crate) fn plan_remote(&self, shown: &Shown, plan: &mut FramePlan) {
         let Some(gpu) = &self.gpu else { return };
         if gpu.lost {
             let lost = self.grids.iter().filter(|grid| matches!(grid.sim, Sim::Gpu(_)));
-            plan.skipped
-                .extend(lost.map(|grid| Skipped { work: SkippedWork::Grid(grid.id), reason: Reason::DeviceLost }));
+            lost.for_each(|grid| plan.skip(SkippedWork::Grid(grid.id), Reason::DeviceLost));
             return;
         }
         let pending = gpu.remote.grids.pending_dispatches() as u32;
         if pending > 0 {
-            plan.work.push(Work::GridSteps { dispatches: pending });
+            plan.run(Work::GridSteps { dispatches: pending });
             plan.dispatches += pending;
         }
-        let mut drawn = 0;
+        let (mut drawn, mut changed) = (0, pending > 0);
         for grid in self.grids.iter() {
-            let Sim::Gpu(remote) = &grid.sim else { continue };
-            if remote.awake {
-                drawn += 1;
+            if !matches!(grid.sim, Sim::Gpu(_)) {
+                continue;
+            }
+            if rules::asleep(self.rules, grid) {
+                plan.skip(SkippedWork::Grid(grid.id), Reason::Asleep);
             } else {
-                plan.skipped.push(Skipped { work: SkippedWork::Grid(grid.id), reason: Reason::Asleep });
+                drawn += 1;
+                plan.list(grid.id);
+                changed |= !shown.has_grid(self.rules, grid, (plan.tick, plan.alpha));
             }
         }
+        if !changed {
+            let unchanged = self.grids.iter().filter(|grid| matches!(grid.sim, Sim::Gpu(_)) && grid.is_awake());
+            unchanged.for_each(|grid| plan.skip(SkippedWork::Grid(grid.id), Reason::Unchanged));
+            drawn = 0;
+        }
         if drawn > 0 {
-            plan.work.push(Work::GridDraw { grids: drawn });
+            plan.run(Work::GridDraw { grids: drawn });
             plan.dispatches += 1;
         }
     }

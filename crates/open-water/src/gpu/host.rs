@@ -1,6 +1,6 @@
 //! What a host with a device calls.
 
-use super::limits;
+use super::{Encoded, limits};
 use crate::plan::FramePlan;
 use crate::trace::{span, warning};
 use crate::water::OpenWater;
@@ -41,6 +41,11 @@ impl OpenWater {
             self.reports.behind += u64::from(!gpu.lost);
             warning!(behind = self.reports.behind, lost = gpu.lost, "the frame's GPU work was left out");
         }
+    }
+
+    /// What the last [`Self::encode`] recorded; its dispatches are those of its plan unless the plan was old or the GPU behind.
+    pub fn encoded(&self) -> Encoded {
+        self.gpu.as_ref().filter(|gpu| !gpu.lost).map_or_else(Encoded::default, |gpu| gpu.encoded)
     }
 
     /// The bind group of the composite surface, for the shader text of [`open_water_shaders::surface::wgsl`], which says what

@@ -29,6 +29,7 @@ use crate::grids::{Grid, Grids, Sim};
 use crate::plan::FramePlan;
 use crate::planner::Shown;
 use crate::store::BodyId;
+pub use encode::Encoded;
 pub use fault::DeviceLoss;
 use surface::SurfaceBinding;
 pub use timer::GpuTimes;
@@ -47,6 +48,8 @@ pub(crate) struct Gpu {
     /// What the last frame encoded, unless uploads were lost since; and how often they had been.
     shown: Shown,
     losses: u64,
+    /// What the last frame recorded.
+    pub(crate) encoded: Encoded,
     /// The device is lost, or has failed: nothing is made or recorded any more.
     pub(crate) lost: bool,
     /// Cells that the pool has room for, and that it never has less.
@@ -79,6 +82,7 @@ impl Gpu {
                 staging: Some(Staging::new(device)),
                 shown: Shown::default(),
                 losses: 0,
+                encoded: Encoded::default(),
                 lost: false,
                 pool: [0; 2],
                 dry: 0,
@@ -260,11 +264,8 @@ impl Gpu {
 
     /// What the GPU holds: nothing that is known, once uploads were lost.
     pub(crate) fn shown(&self) -> Shown {
-        self.held(self.staging.as_ref().map_or(0, Staging::losses))
-    }
-
-    fn held(&self, losses: u64) -> Shown {
-        if losses == self.losses { self.shown } else { Shown::default() }
+        let losses = self.staging.as_ref().map_or(0, Staging::losses);
+        if losses == self.losses { self.shown.clone() } else { Shown::default() }
     }
 
     /// Bytes that the next upload of a CPU-homed grid takes.

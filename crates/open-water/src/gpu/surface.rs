@@ -147,29 +147,29 @@ impl SurfaceBinding {
         &self.pool
     }
 
-    /// `size` is that of the cascades' layers, texels per side.
+    /// `size` is that of the cascades' layers, texels per side; the sea comes with how many cascades are to be read.
     pub(crate) fn write_table<'a>(
         &mut self,
         frame: &mut Frame<'_>,
         time: f64,
-        ocean: Option<&Ocean>,
+        sea: Option<(&Ocean, usize)>,
         grids: impl Iterator<Item = &'a Grid>,
         shore: ShoreMark,
         size: u32,
     ) {
         let mut table = SurfaceTable { time: (time % LOOKS_TIME) as f32, ..Default::default() };
-        if let Some(ocean) = ocean {
+        if let Some((ocean, cascades)) = sea {
             table.significant_height = ocean.significant_height();
             for (i, slope) in table.hidden_slope.iter_mut().enumerate() {
                 *slope = ocean.hidden_slope((i as f32 - HIDDEN_SLOPE_BIAS as f32).exp2());
             }
-            let modes = ocean.mode_sets_at(time).0;
+            let modes = ocean.mode_sets_at(time).0.iter().take(cascades);
             for ((entry, modes), offset) in table.cascades.iter_mut().zip(modes).zip(ocean.offsets_at(time)) {
                 *entry = SurfaceCascade { offset: offset.into(), tile: modes.tile, size: size as f32 };
                 table.cascade_count += 1;
             }
         }
-        for (entry, grid) in table.grids.iter_mut().zip(grids.filter(|grid| grid.is_awake())) {
+        for (entry, grid) in table.grids.iter_mut().zip(grids) {
             let window = grid.window();
             *entry = SurfaceGrid {
                 corner: window.local_corner(grid.origin).into(),

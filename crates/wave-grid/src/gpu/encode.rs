@@ -55,7 +55,7 @@ impl GpuGrids {
     pub fn encode(&mut self, frame: &mut Frame<'_>) {
         if self.upload(frame) {
             let of = wgpu::ComputePassDescriptor { label: Some("grids"), ..Default::default() };
-            self.record(&mut frame.encoder.begin_compute_pass(&of));
+            let _ = self.record(&mut frame.encoder.begin_compute_pass(&of));
             self.finish(frame);
         }
     }
@@ -92,9 +92,9 @@ impl GpuGrids {
         true
     }
 
-    /// The second part of [`Self::encode`]: dispatches.
-    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
-        let Some(groups) = self.buffers.groups() else { return };
+    /// The second part of [`Self::encode`]: dispatches. Returns their number.
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>) -> u32 {
+        let Some(groups) = self.buffers.groups() else { return 0 };
         let mut dispatch = 0;
         for (index, tick) in (0..).zip(&self.ticks) {
             let params = index * size_of::<TickParams>() as u32;
@@ -123,6 +123,7 @@ impl GpuGrids {
                 dispatch += 1;
             }
         }
+        dispatch
     }
 
     /// The last part of [`Self::encode`]: the copy of what comes back.
@@ -140,7 +141,7 @@ impl GpuGrids {
     pub fn encode_draw(&mut self, frame: &mut Frame<'_>, pool: &wgpu::Buffer, draws: &[(GpuGridId, u32)], alpha: f32) {
         if self.upload_draw(frame, pool, draws, alpha) {
             let of = wgpu::ComputePassDescriptor { label: Some("grid draw"), ..Default::default() };
-            self.record_draw(&mut frame.encoder.begin_compute_pass(&of));
+            let _ = self.record_draw(&mut frame.encoder.begin_compute_pass(&of));
         }
     }
 
@@ -171,14 +172,15 @@ impl GpuGrids {
         true
     }
 
-    /// The second part of [`Self::encode_draw`]: one dispatch, after those of [`Self::record`].
-    pub fn record_draw(&self, pass: &mut wgpu::ComputePass<'_>) {
+    /// The second part of [`Self::encode_draw`]: one dispatch, after those of [`Self::record`]. Returns their number.
+    pub fn record_draw(&self, pass: &mut wgpu::ComputePass<'_>) -> u32 {
         let Some((Drawing { felt, holes, workgroups: [x, y, z] }, group)) = self.drawing.zip(self.buffers.draw_group())
         else {
-            return;
+            return 0;
         };
         pass.set_pipeline(&self.passes.draw[usize::from(felt)][usize::from(holes)]);
         pass.set_bind_group(0, group, &[]);
         pass.dispatch_workgroups(x, y, z);
+        1
     }
 }
