@@ -22,10 +22,14 @@ mod fleet_inertia;
 mod fleet_kernel;
 mod fleet_tick;
 mod fleet_water;
+mod frame_allocations;
 mod frame_dry;
 mod frame_presets;
+mod frame_rates;
 mod frame_scene;
 mod frame_soak;
+mod frame_store;
+mod frame_world;
 mod grid_border;
 mod grid_current;
 mod grid_edges;
@@ -171,6 +175,10 @@ pub const CASES: &[Case] = &[
     robust::DRIFT,
     robust::ACCOUNT,
     frame_scene::SCENE,
+    frame_store::STORE,
+    frame_world::WORLD,
+    frame_rates::RATES,
+    frame_allocations::ALLOCATIONS,
     frame_soak::SOAK,
     frame_presets::PRESETS,
     frame_presets::CHANGE,

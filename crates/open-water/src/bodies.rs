@@ -333,7 +333,11 @@ impl Bodies {
                     Wants::Wrench => entry.wrench = entry.body.step_wrench(dt, &water, &entry.controls),
                 }
                 entry.displaced.clear();
-                entry.body.displacements(&mut entry.displaced);
+                if entry.homes.now().is_some() {
+                    // All that a tick may tell of: so it never grows.
+                    entry.displaced.reserve(2 * entry.body.force_points().len() + 1);
+                    entry.body.displacements(&mut entry.displaced);
+                }
                 entry.previous = Some(if jumped { Pose::of(&entry.body) } else { Pose::at(&entry.body, &before) });
             }
         });

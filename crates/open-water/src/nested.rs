@@ -3,9 +3,11 @@
 //! All grids that lie in one another hold the same waves, as far as their windows and cells carry them: a source goes to
 //! each of them. Where a finer one is seen the coarser ones are not, so that every wave is seen and felt once.
 
+use arrayvec::ArrayVec;
 use glam::{DVec2, Vec2};
+use wave_grid::Hole;
 
-use crate::grids::{Grid, Grids, Sim};
+use crate::grids::{Grid, Grids, MAX_GRIDS, Sim};
 use crate::store::GridId;
 use crate::{Follow, GridDesc, GridHome, OpenWaterError};
 
@@ -85,9 +87,9 @@ impl Grids {
             return;
         }
         self.holed = any;
-        let ids: Vec<GridId> = self.iter().map(|grid| grid.id).collect();
+        let ids: ArrayVec<GridId, MAX_GRIDS> = self.iter().map(|grid| grid.id).collect();
         for id in ids {
-            let holes: Vec<_> = self.inside(id).map(Grid::hole).collect();
+            let holes: ArrayVec<Hole, MAX_GRIDS> = self.inside(id).map(Grid::hole).collect();
             if let Some(grid) = self.get_mut(id) {
                 grid.set_holes(&holes);
             }

@@ -211,11 +211,15 @@ impl OpenWater {
     /// store before and written after.
     ///
     /// # Errors
-    /// [`OpenWaterError::TickOutOfOrder`]; then nothing was changed.
+    /// [`OpenWaterError::TickOutOfOrder`], or a tick of another length; then nothing was changed.
     pub fn tick(&mut self, tick: Tick, store: &mut dyn BodyStore) -> Result<(), OpenWaterError> {
         let expected = self.tick + 1;
         if tick.index != expected {
             return Err(OpenWaterError::TickOutOfOrder { expected, found: tick.index });
+        }
+        if tick.dt != self.clock.dt() {
+            let (field, value) = ("tick.dt", tick.dt.into());
+            return Err(OpenWaterError::InvalidValue { field, value, bound: "as long as `advance` gave it" });
         }
         span!("tick", index = tick.index, bodies = self.bodies.len(), grids = self.grids.iter().len());
         #[cfg(feature = "serde")]

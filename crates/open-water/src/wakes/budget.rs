@@ -28,7 +28,8 @@ const TRAIL: f32 = 0.2;
 const AT_ONCE: usize = 4;
 
 /// A body that asks for a grid.
-struct Asking {
+#[derive(Debug, Clone)]
+pub(super) struct Asking {
     body: BodyId,
     weight: f32,
     distance: f32,
@@ -71,14 +72,14 @@ impl OpenWater {
             for body in self.bodies.active() {
                 let velocity = body.1.state().velocity;
                 let velocity = Vec2::new(velocity.x, velocity.z);
-                let way = wakes.ways.get(body.0).copied().unwrap_or(velocity);
-                wakes.ways.insert(body.0, way + (velocity - way) * share);
+                let way = wakes.way(body.0).unwrap_or(velocity);
+                wakes.known().ways.insert(body.0, way + (velocity - way) * share);
             }
             if self.tick.is_multiple_of(BEAT) {
                 self.share_out(&mut wakes, &desc);
             }
             for kept in &wakes.kept {
-                let way = wakes.ways.get(kept.body).copied().unwrap_or_default();
+                let way = wakes.way(kept.body).unwrap_or_default();
                 let length = self.bodies.body(kept.body).map_or(1.0, length);
                 if let Some(grid) = self.grids.get_mut(kept.grid) {
                     let (faster, [low, high]) = match grid.desc.scheme.is_wave_equation() {
@@ -98,8 +99,9 @@ impl OpenWater {
         let grids = &self.grids;
         wakes.fading.retain(|(id, _)| grids.get(*id).is_ok());
         wakes.kept.retain(|kept| grids.present(kept.grid).is_ok());
-        wakes.told.clear();
-        let mut asking = self.asking(wakes, desc);
+        wakes.known().told.clear();
+        let mut asking = std::mem::take(&mut wakes.asking);
+        self.ask(wakes, desc, &mut asking);
         for at in (0..wakes.kept.len()).rev() {
             let of = asking.iter().find(|asking| asking.body == wakes.kept[at].body);
             let kept = &mut wakes.kept[at];
@@ -114,44 +116,45 @@ impl OpenWater {
         let mut left = AT_ONCE;
         self.change_levels(wakes, desc, &asking, &mut left);
         asking.retain(|asking| wakes.kept.iter().all(|kept| kept.body != asking.body));
-        asking.sort_by(|a, b| b.weight.total_cmp(&a.weight).then(a.body.cmp(&b.body)));
+        asking.sort_unstable_by(|a, b| b.weight.total_cmp(&a.weight).then(a.body.cmp(&b.body)));
         let mut claimed = 0;
         for asking in &asking {
             let why = if asking.still { Wake::Still } else { Wake::NoRoom };
-            wakes.told.insert(asking.body, why);
+            wakes.known().told.insert(asking.body, why);
             if !asking.still && left > 0 {
                 self.give(wakes, desc, asking, &mut claimed, &mut left);
             }
         }
-        for kept in &wakes.kept {
+        wakes.asking = asking;
+        let Wakes { kept, known, .. } = wakes;
+        for kept in kept.iter() {
             let cell_size = desc.level(kept.level, kept.size).cell_size;
-            wakes.told.insert(kept.body, Wake::Grid { grid: kept.grid, cell_size });
+            known.get_or_insert_default().told.insert(kept.body, Wake::Grid { grid: kept.grid, cell_size });
         }
     }
 
-    /// The bodies that may have a grid of ours; the others are told why not.
-    fn asking(&self, wakes: &mut Wakes, desc: &WakesDesc) -> Vec<Asking> {
-        let mut asking = Vec::new();
+    /// Finds the bodies that may have a grid of ours; the others are told why not.
+    fn ask(&self, wakes: &mut Wakes, desc: &WakesDesc, asking: &mut Vec<Asking>) {
+        asking.clear();
         for (id, body) in self.bodies.active() {
             let length = length(body);
             let ours = wakes.kept.iter().any(|kept| kept.body == id);
             if !ours && self.grids.iter().any(|grid| !grid.leaving && grid.follows(id)) {
-                wakes.told.insert(id, Wake::OwnGrid);
+                wakes.known().told.insert(id, Wake::OwnGrid);
                 continue;
             }
             if length < desc.least_length {
-                wakes.told.insert(id, Wake::Short);
+                wakes.known().told.insert(id, Wake::Short);
                 continue;
             }
             let place = body.state().position;
             let distance = self.looking.map_or(0.0, |look| look.eye.distance(place));
-            let froude = wakes.ways.get(id).map_or(0.0, |way| froude(*way, length));
+            let froude = wakes.way(id).map_or(0.0, |way| froude(way, length));
             let near = if self.looking.is_some() { distance.max(length) } else { 1.0 };
             let weight = length * (froude / FAST).min(1.0) / near;
             let size = desc.size(length);
             asking.push(Asking { body: id, weight, distance, size, still: froude < STILL, place });
         }
-        asking
     }
 
     /// Gives grids whose body came nearer or went away other cells.
@@ -213,7 +216,7 @@ impl OpenWater {
             let least = (0..wakes.kept.len()).min_by(|a, b| wakes.kept[*a].weight.total_cmp(&wakes.kept[*b].weight));
             let Some(at) = least.filter(|at| STRONGER * wakes.kept[*at].weight < asking.weight) else { return };
             let kept = wakes.kept.remove(at);
-            wakes.told.insert(kept.body, Wake::NoRoom);
+            wakes.known().told.insert(kept.body, Wake::NoRoom);
             self.let_go(wakes, &kept);
         }
         *claimed += needed;

@@ -92,7 +92,8 @@ impl std::fmt::Display for Wake {
 impl Wakes {
     /// Whether a grid is one of these.
     pub(crate) fn owns(&self, id: GridId) -> bool {
-        self.told.values().any(|wake| matches!(wake, Wake::Grid { grid, .. } if *grid == id))
+        let mut told = self.known.iter().flat_map(|known| known.told.values());
+        told.any(|wake| matches!(wake, Wake::Grid { grid, .. } if *grid == id))
     }
 }
 
@@ -181,12 +182,32 @@ pub(crate) struct Wakes {
     kept: Vec<Kept>,
     /// Grids that were let go and still fade.
     fading: Vec<(GridId, u64)>,
+    /// None without wakes: empty maps have a place on the heap too, which no tick is to ask for.
+    known: Option<Known>,
+    /// Scratch of a decision.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    asking: Vec<budget::Asking>,
+}
+
+/// What is known of bodies.
+#[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Known {
     /// Mean velocities, m/s.
     ways: SecondaryMap<BodyId, Vec2>,
     told: SecondaryMap<BodyId, Wake>,
 }
 
 impl Wakes {
+    fn known(&mut self) -> &mut Known {
+        self.known.get_or_insert_default()
+    }
+
+    /// Mean velocity of a body, m/s.
+    fn way(&self, body: BodyId) -> Option<Vec2> {
+        self.known.as_ref()?.ways.get(body).copied()
+    }
+
     /// Refuses what no water can have come to.
     pub(crate) fn check(&self, tick: f32) -> Result<(), OpenWaterError> {
         self.desc.as_ref().map_or(Ok(()), |desc| desc.check(tick))?;
@@ -229,7 +250,9 @@ impl OpenWater {
         if let Some(gpu) = &mut self.gpu {
             gpu.reserve_pool(desc.as_ref().map_or(0, |desc| desc.cells.min(u32::MAX.into()) as u32));
         }
-        wakes.told.clear();
+        if let Some(known) = &mut wakes.known {
+            known.told.clear();
+        }
         wakes.desc = desc;
         self.wakes = wakes;
         note!(self, Input::Wakes(Box::new(self.wakes.desc.clone())));
@@ -242,6 +265,7 @@ impl OpenWater {
     /// There is no such body.
     pub fn wake(&self, body: BodyId) -> Result<Wake, OpenWaterError> {
         self.bodies.body(body)?;
-        Ok(self.wakes.told.get(body).copied().unwrap_or(Wake::NotAsked))
+        let told = self.wakes.known.as_ref().and_then(|known| known.told.get(body));
+        Ok(told.copied().unwrap_or(Wake::NotAsked))
     }
 }

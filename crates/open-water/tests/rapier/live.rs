@@ -115,3 +115,44 @@ fn flotsam_may_live_in_a_store_of_its_own() {
     assert!(flotsam.get(id).unwrap().position.y < 1.5);
     assert!(world.rigid(boat).user_force().y > 0.0);
 }
+
+#[test]
+fn a_rebase_of_the_whole_world_is_no_teleport() {
+    let (mut moved, mut stayed) = (choppy(), choppy());
+    let offset = DVec2::new(64.0, -32.0);
+    let shift = Vec3::new(64.0, 0.0, -32.0);
+    let spawned = [&mut moved, &mut stayed].map(|world| world.spawn(crate_desc(), Vec3::new(70.0, 0.5, -30.0)));
+    for _ in 0..3 {
+        [&mut moved, &mut stayed].into_iter().for_each(|world| world.run(2.0));
+        moved.water.rebase(offset).unwrap();
+        for (_, body) in moved.physics.bodies.iter_mut() {
+            let at = body.translation() - shift;
+            body.set_translation(at, false);
+        }
+    }
+    let [a, b] =
+        [(&moved, spawned[0].1), (&stayed, spawned[1].1)].map(|(world, handle)| *world.rigid(handle).position());
+    let off = (a.translation + 3.0 * shift).distance(b.translation);
+    assert!(off < 2e-3 && moved.water.reports().teleports == 0, "{off} m");
+    let pose = moved.floating.drawn_pose(&moved.water, &moved.physics.bodies, spawned[0].0).unwrap();
+    assert!(pose.position.distance(a.translation) < 0.1, "{pose:?}");
+}
+
+#[test]
+fn the_handle_of_a_body_that_is_gone_never_reaches_a_rigid_body() {
+    let mut world = World::calm();
+    let (old, handle) = world.spawn(crate_desc(), Vec3::ZERO);
+    world.water.remove_body(old).unwrap();
+    let new = world.water.add_body(crate_desc()).unwrap();
+    assert_eq!((world.floating.handle(new), world.floating.handle(old)), (None, Some(handle)));
+    world.run(0.5);
+    assert!(world.water.drawn_pose(new).is_none());
+    // The rigid body may be given to the new one once it is taken from the old.
+    let World { water, floating, physics } = &mut world;
+    let taken = floating.insert(water, new, handle, &mut physics.bodies, &physics.colliders);
+    assert!(matches!(taken, Err(RapierError::Taken { body, .. }) if body == old), "{taken:?}");
+    floating.remove(old, &mut physics.bodies);
+    floating.insert(water, new, handle, &mut physics.bodies, &physics.colliders).unwrap();
+    world.run(0.5);
+    assert!(world.water.drawn_pose(new).is_some() && world.floating.handle(old).is_none());
+}

@@ -47,7 +47,8 @@ pub(crate) struct Layer {
 impl Layer {
     pub(crate) fn new(cells: [usize; 2], width: usize, g: f64) -> Self {
         let sides = Sides::default();
-        let axes = [0, 1].map(|k| axis(cells[k], width, g, sides.open[k]));
+        let mut axes = [0, 1].map(|k| Axis::new(cells[k]));
+        axes.iter_mut().zip(sides.open).for_each(|(axis, open)| axis.set(width, g, open));
         Self { axes, memory: Memory::new(cells, width), cells, width, g, sides }
     }
 
@@ -55,14 +56,14 @@ impl Layer {
     pub(crate) fn move_with(&mut self, velocity: [f64; 2], time: f64) {
         let changed = self.sides.move_with(velocity, time);
         for k in (0..2).filter(|k| changed[*k]) {
-            self.axes[k] = axis(self.cells[k], self.width, self.g, self.sides.open[k]);
+            self.axes[k].set(self.width, self.g, self.sides.open[k]);
         }
     }
 
     /// Goes back to these sides, with what [`Memory::numbers`] told.
     pub(crate) fn restore(&mut self, sides: Sides, mut numbers: &[f32]) {
         for k in (0..2).filter(|k| sides.open[*k] != self.sides.open[*k]) {
-            self.axes[k] = axis(self.cells[k], self.width, self.g, sides.open[k]);
+            self.axes[k].set(self.width, self.g, sides.open[k]);
         }
         self.sides = sides;
         for (_, array) in self.memory.arrays() {
@@ -112,29 +113,51 @@ impl Sides {
     }
 }
 
-/// The factors of an axis of `n` cells. The outermost cells are zero and take no part.
-fn axis(n: usize, width: usize, g: f64, [low, high]: [f64; 2]) -> Axis {
-    let (w, last) = (width as f64, n as f64 - 1.0);
-    let factors = |x: f64| {
-        let (from_low, from_high) = ((w - 0.5 - x) / w, (x - (last - w + 0.5)) / w);
-        let (depth, open) = if from_low > from_high { (from_low, low) } else { (from_high, high) };
-        if depth <= 0.0 || open <= 0.0 {
-            return [0.0; 2];
+impl Axis {
+    /// An axis of `n` cells, without a layer yet.
+    fn new(n: usize) -> Self {
+        let zeros = || [0, 1].map(|_| vec![0.0; n + 1]);
+        Self { node: zeros(), edge: zeros() }
+    }
+
+    /// Takes the factors of sides that are so open. The outermost cells are zero and take no part.
+    fn set(&mut self, width: usize, g: f64, [low, high]: [f64; 2]) {
+        let (w, last) = (width as f64, self.node[0].len() as f64 - 2.0);
+        let factors = |x: f64| {
+            let (from_low, from_high) = ((w - 0.5 - x) / w, (x - (last - w + 0.5)) / w);
+            let (depth, open) = if from_low > from_high { (from_low, low) } else { (from_high, high) };
+            if depth <= 0.0 || open <= 0.0 {
+                return [0.0; 2];
+            }
+            let depth = depth.min(1.0);
+            let sigma = STRENGTH * g.sqrt() * open * depth * depth * depth;
+            let alpha = SHIFT * g.sqrt() * (1.0 - depth);
+            let b = libm::exp(-(sigma + alpha));
+            [b, sigma / (sigma + alpha) * (b - 1.0)]
+        };
+        for (table, at) in [(&mut self.node, 0.0), (&mut self.edge, -0.5)] {
+            let [b, c] = table;
+            for (i, (b, c)) in b.iter_mut().zip(c).enumerate() {
+                [*b, *c] = factors(i as f64 + at).map(|factor| factor as f32);
+            }
         }
-        let depth = depth.min(1.0);
-        let sigma = STRENGTH * g.sqrt() * open * depth * depth * depth;
-        let alpha = SHIFT * g.sqrt() * (1.0 - depth);
-        let b = libm::exp(-(sigma + alpha));
-        [b, sigma / (sigma + alpha) * (b - 1.0)]
-    };
-    let table =
-        |at: f64| -> [Vec<f32>; 2] { [0, 1].map(|k| (0..=n).map(|i| factors(i as f64 + at)[k] as f32).collect()) };
-    Axis { node: table(0.0), edge: table(-0.5) }
+    }
+}
+
+/// Where cell `i` of an axis has its entry in [`Memory`], if it is near a side.
+#[inline(always)]
+fn slot(cells: usize, reach: usize, span: usize, i: usize) -> Option<usize> {
+    let high = cells - reach;
+    match i {
+        i if i <= reach => Some(i),
+        i if i >= high => Some(span + i - high),
+        _ => None,
+    }
 }
 
 /// psi and zeta of both axes, of the cells within reach of the window's edges.
 ///
-/// Along x each row has the `2 * span` entries of [`Memory::slot`]; along z as many rows have an entry per column.
+/// Along x each row has the `2 * span` entries of [`slot`]; along z as many rows have an entry per column.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Memory {
     pub(crate) cells: [usize; 2],
@@ -153,17 +176,6 @@ impl Memory {
         let span = reach + 1;
         let zero = |axis: usize| std::array::from_fn(|_| vec![0.0; 2 * span * cells[1 - axis]]);
         Self { cells, reach, span, psi: [zero(0), zero(1)], zeta: [zero(0), zero(1)] }
-    }
-
-    /// Where cell `i` along an axis has its entry, if it is near a side.
-    #[inline(always)]
-    pub(crate) fn slot(&self, axis: usize, i: usize) -> Option<usize> {
-        let high = self.cells[axis] - self.reach;
-        match i {
-            i if i <= self.reach => Some(i),
-            i if i >= high => Some(self.span + i - high),
-            _ => None,
-        }
     }
 
     fn arrays(&mut self) -> impl Iterator<Item = (usize, &mut Vec<f32>)> {
@@ -186,18 +198,17 @@ impl Memory {
 
     /// Zeroes what belongs to a rectangle of cells.
     pub(crate) fn clear_cells(&mut self, x: &Range<usize>, z: &Range<usize>) {
-        let slots = |axis: usize, range: &Range<usize>| -> Vec<usize> {
-            range.clone().filter_map(|i| self.slot(axis, i)).collect()
-        };
-        let (columns, rows) = (slots(0, x), slots(1, z));
-        let (nx, row) = (self.cells[0], 2 * self.span);
+        let (cells, reach, span) = (self.cells, self.reach, self.span);
+        let slots =
+            |axis: usize, range: &Range<usize>| range.clone().filter_map(move |i| slot(cells[axis], reach, span, i));
+        let (nx, row) = (cells[0], 2 * span);
         for (axis, array) in self.arrays() {
             if axis == 0 {
                 for j in z.clone() {
-                    columns.iter().for_each(|k| array[j * row + k] = 0.0);
+                    slots(0, x).for_each(|k| array[j * row + k] = 0.0);
                 }
             } else {
-                rows.iter().for_each(|k| array[k * nx + x.start..k * nx + x.end].fill(0.0));
+                slots(1, z).for_each(|k| array[k * nx + x.start..k * nx + x.end].fill(0.0));
             }
         }
     }

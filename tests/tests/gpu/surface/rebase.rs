@@ -54,7 +54,10 @@ fn what_is_drawn_stays_where_it_is_in_the_world() {
     // The game does not even run a tick: the same moment, from elsewhere.
     scene.water.rebase(OFFSET).unwrap();
     let plan = scene.frame(Some(&context), 0.0, all);
-    assert!(plan.work.contains(&Work::Table) && plan.dispatches() == 0, "{plan}");
+    assert!(
+        plan.work.contains(&Work::Table) && !plan.work.iter().any(|work| matches!(work, Work::Ocean { .. })),
+        "{plan}"
+    );
     let is = [sampled(&scene, &after), drawn(&scene, &after)];
     for (was, is) in was.iter().zip(&is) {
         let off = was.iter().zip(is).fold(0.0_f32, |most, (a, b)| most.max((a - b).abs()));
