@@ -24,11 +24,14 @@ mod fleet_tick;
 mod fleet_water;
 mod frame_allocations;
 mod frame_dry;
+mod frame_encode;
 mod frame_presets;
 mod frame_rates;
 mod frame_scene;
 mod frame_soak;
+mod frame_staging;
 mod frame_store;
+mod frame_upload;
 mod frame_world;
 mod grid_border;
 mod grid_current;
@@ -183,4 +186,7 @@ pub const CASES: &[Case] = &[
     frame_presets::PRESETS,
     frame_presets::CHANGE,
     frame_dry::DRY,
+    frame_upload::UPLOAD,
+    frame_encode::ENCODE,
+    frame_staging::STAGING,
 ];

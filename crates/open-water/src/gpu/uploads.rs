@@ -10,8 +10,9 @@ use wave_grid::{TILE, WaveGrid};
 
 use crate::store::GridId;
 
-/// Cells whose upload takes as long as a copy of its own: where that many fewer are left out, a row goes up whole.
-const COPY: u32 = 256;
+/// Cells whose upload takes as long as a copy of its own, by `frame_upload` of the evidence: where fewer are left out of a
+/// row, it goes up whole, in one copy with those beside it.
+const COPY: u32 = 1900;
 const CELL: u64 = size_of::<[f32; 2]>() as u64;
 
 /// A grid's bands: columns, first and end.
