@@ -28,6 +28,7 @@ mod frame_encode;
 mod frame_presets;
 mod frame_rates;
 mod frame_scene;
+mod frame_snapshot;
 mod frame_soak;
 mod frame_staging;
 mod frame_store;
@@ -189,4 +190,5 @@ pub const CASES: &[Case] = &[
     frame_upload::UPLOAD,
     frame_encode::ENCODE,
     frame_staging::STAGING,
+    frame_snapshot::SNAPSHOT,
 ];

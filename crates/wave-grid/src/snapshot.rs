@@ -48,6 +48,7 @@ impl WaveGrid {
     /// This moment. Takes time and memory for tiles that are not calm only, and for the border layer of water waves.
     pub fn snapshot(&self) -> GridSnapshot {
         let mut snapshot = self.outline();
+        snapshot.cells.reserve_exact(self.numbers_of(&self.tiles));
         self.for_numbers(&mut |numbers| snapshot.cells.extend_from_slice(numbers));
         snapshot
     }

@@ -89,6 +89,7 @@ fn scenes(sections: &mut Sections) -> Result<(), Failure> {
             "run --release --example kelvin -- --frames 3 --size 320x180 --lead 2 --backend cpu --scheme {scheme} --out target/ci/kelvin-{scheme}"
         ))?;
     }
+    sections.cargo("run --release --example server -- --frames 120")?;
     sections.cargo("run --release --example embed -- --frames 4")?;
     sections.cargo("run --release --example plane -- --frames 4 --out target/ci/plane.png")
 }
