@@ -4,8 +4,8 @@ use floating_body::{BodyDesc, Controls, Hull};
 use glam::{DVec2, Quat, Vec2, Vec3};
 use ocean_spectrum::CascadeDesc;
 use open_water::{
-    BodyId, BodyState, BodyStates, Follow, GridDesc, GridHome, GridId, Look, OpenWater, OpenWaterDesc, Preset,
-    Radiation, SeaState, WaterSample,
+    BodyId, BodyState, BodyStates, Consumers, Follow, GridDesc, GridHome, GridId, Look, OpenWater, OpenWaterDesc,
+    Preset, Radiation, SeaState, WaterSample, WaterSnapshot,
 };
 
 use super::device::Device;
@@ -23,9 +23,19 @@ pub(super) struct Life {
     random: Random,
     hulls: [Hull; 2],
     afloat: Vec<BodyId>,
-    grids: Vec<GridId>,
+    /// And whether each is afar, where it may be homed on the device.
+    grids: Vec<(GridId, bool)>,
     answers: Vec<WaterSample>,
+    saved: Option<Saved>,
     pub(super) events: usize,
+}
+
+/// A moment to go back to.
+struct Saved {
+    water: WaterSnapshot,
+    bodies: BodyStates,
+    afloat: Vec<BodyId>,
+    grids: Vec<(GridId, bool)>,
 }
 
 impl Life {
@@ -42,6 +52,7 @@ impl Life {
             afloat: Vec::new(),
             grids: Vec::new(),
             answers: vec![WaterSample::default(); 8],
+            saved: None,
             events: 0,
         })
     }
@@ -83,11 +94,12 @@ impl Life {
 
     /// Takes everything away.
     pub(super) fn leave(&mut self) -> Result<(), CaseError> {
+        self.saved = None;
         for id in self.afloat.drain(..) {
             self.water.remove_body(id)?;
             self.bodies.remove(id);
         }
-        for id in self.grids.drain(..) {
+        for (id, _) in self.grids.drain(..) {
             self.water.remove_grid(id)?;
         }
         Ok(())
@@ -102,27 +114,27 @@ impl Life {
         self.answers.iter().filter(sane).count() + self.afloat.iter().filter(state).count()
     }
 
-    /// Of all bodies.
-    pub(super) fn hash(&self) -> u64 {
-        let mut hash = 0xcbf2_9ce4_8422_2325u64;
-        for id in &self.afloat {
-            let Some(s) = self.bodies.get(*id) else { continue };
-            for x in s.position.to_array().into_iter().chain(s.velocity.to_array()) {
-                hash = (hash ^ u64::from(x.to_bits())).wrapping_mul(0x100_0000_01b3);
-            }
+    /// The device is gone, and another takes its place some frames later.
+    pub(super) fn lose_device(&mut self, next: &Device) -> Result<(), CaseError> {
+        self.water.lose_device();
+        for _ in 0..3 {
+            self.idle()?;
+            let mut encoder = next.device.create_command_encoder(&Default::default());
+            self.water.encode(&self.water.plan(&[], Consumers::all()), &mut encoder);
         }
-        hash
+        self.water.replace_device(&next.device, &next.queue)?;
+        Ok(())
     }
 
     fn event(&mut self) -> Result<(), CaseError> {
-        match self.which(16) {
+        match self.which(22) {
             0..=3 if self.afloat.len() < MOST[0] => self.launch(),
             4 | 5 if !self.afloat.is_empty() => self.sink(),
             6 | 7 if !self.afloat.is_empty() => self.move_one(),
             8 if self.grids.len() < MOST[1] => self.add_grid(),
             9 if !self.grids.is_empty() => {
                 let id = self.which(self.grids.len());
-                self.water.remove_grid(self.grids.swap_remove(id))?;
+                self.water.remove_grid(self.grids.swap_remove(id).0)?;
                 Ok(())
             }
             10 => {
@@ -144,6 +156,10 @@ impl Life {
                 Ok(())
             }
             14 => self.nonsense(),
+            15 => self.save_or_restore(),
+            16 => self.rebase(),
+            17 | 18 => self.change_sea_itself(),
+            19 if !self.grids.is_empty() => self.change_grid(),
             _ => self.steer(),
         }
     }
@@ -208,7 +224,71 @@ impl Life {
         let cells = 48 + 16 * self.which(4) as u32;
         let desc = GridDesc { follow, home, cells: [cells; 2], ..Preset::Low.grid() };
         let id = self.water.add_grid(desc)?;
-        self.grids.push(id);
+        self.grids.push((id, remote));
+        Ok(())
+    }
+
+    /// Through bytes every other time.
+    fn save_or_restore(&mut self) -> Result<(), CaseError> {
+        let by_bytes = self.which(2) == 0;
+        let Some(Saved { water, bodies, afloat, grids }) = self.saved.take() else {
+            let water = self.water.snapshot();
+            let (bodies, afloat, grids) = (self.bodies.clone(), self.afloat.clone(), self.grids.clone());
+            self.saved = Some(Saved { water, bodies, afloat, grids });
+            return Ok(());
+        };
+        let water = if by_bytes { WaterSnapshot::from_bytes(&water.to_bytes())? } else { water };
+        self.water.restore(&water)?;
+        (self.bodies, self.afloat, self.grids) = (bodies, afloat, grids);
+        Ok(())
+    }
+
+    /// All there is moves the other way, so that it comes to lie elsewhere in the world.
+    fn rebase(&mut self) -> Result<(), CaseError> {
+        let offset = DVec2::new(self.number(-500.0, 500.0).round().into(), self.number(-500.0, 500.0).round().into());
+        self.water.rebase(offset)?;
+        let offset = offset.as_vec2();
+        for id in &self.afloat {
+            if let Some(state) = self.bodies.get_mut(*id) {
+                state.position -= Vec3::new(offset.x, 0.0, offset.y);
+            }
+        }
+        // And back to the middle, where it is seen.
+        if let Some(&id) = self.afloat.first()
+            && let Some(state) = self.bodies.get_mut(id)
+        {
+            state.position = Vec3::new(0.0, 1.0, 0.0);
+            self.water.teleport(id, *state)?;
+        }
+        Ok(())
+    }
+
+    fn change_sea_itself(&mut self) -> Result<(), CaseError> {
+        let over = self.number(0.0, 5.0);
+        Ok(match self.which(8) {
+            0 => self.water.set_quality(Preset::Low)?,
+            1..=3 => {
+                let choppiness = self.number(0.0, 1.0);
+                self.water.set_choppiness(choppiness, over)?;
+            }
+            n => {
+                let tiles = [[120.0, 18.0], [90.0, 14.0]][n % 2];
+                self.water.set_cascades(tiles.map(|tile| CascadeDesc::new(32, tile)).to_vec(), over)?;
+            }
+        })
+    }
+
+    /// Other cells, or another home.
+    fn change_grid(&mut self) -> Result<(), CaseError> {
+        let at = self.which(self.grids.len());
+        let cells = 48 + 16 * self.which(4) as u32;
+        let size = self.number(0.3, 0.8);
+        let home = [GridHome::Cpu, GridHome::Gpu][self.which(2)];
+        let (id, afar) = &mut self.grids[at];
+        match *afar {
+            true => self.water.set_grid_home(*id, home)?,
+            false => *id = self.water.set_grid_cells(*id, [cells; 2], [size; 2])?,
+        }
         Ok(())
     }
 

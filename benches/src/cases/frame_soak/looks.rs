@@ -20,6 +20,11 @@ impl Looks {
         Self { random: Random::new(seed), flight: VecDeque::new() }
     }
 
+    /// What was under way on another device is nothing to wait for.
+    pub(super) fn forget(&mut self) {
+        self.flight.clear();
+    }
+
     fn chance(&mut self, one_in: f64) -> bool {
         self.random.within(0.0, one_in) < 1.0
     }

@@ -73,15 +73,14 @@ impl Bands {
 impl Uploads {
     /// Notes where a grid holds something after a tick.
     pub(crate) fn note(&mut self, id: GridId, waves: &WaveGrid) {
-        if !self.grids.contains_key(id) {
-            self.grids.insert(id, Bands::default());
+        if let Some(bands) = self.grids.entry(id) {
+            waves.shown(&mut bands.or_default().now);
         }
-        waves.shown(&mut self.grids[id].now);
     }
 
-    /// Nothing is known of the pool any more.
+    /// Nothing is known of the pool any more, nor which grids there are: with a snapshot, older handles come back.
     pub(crate) fn forget(&mut self) {
-        self.grids.values_mut().for_each(|bands| bands.held.clear());
+        self.grids.clear();
     }
 
     /// The device itself draws a grid.
@@ -105,7 +104,7 @@ impl Uploads {
     ) {
         // Something may have fallen in since the tick.
         self.note(id, waves);
-        let bands = &mut self.grids[id];
+        let Some(bands) = self.grids.get_mut(id) else { return };
         bands.parts(waves.desc().cells, &mut self.parts);
         if self.parts.is_empty() {
             return;
