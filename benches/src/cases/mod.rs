@@ -22,9 +22,11 @@ mod fleet_inertia;
 mod fleet_kernel;
 mod fleet_tick;
 mod fleet_water;
+mod frame_age;
 mod frame_allocations;
 mod frame_dry;
 mod frame_encode;
+mod frame_home;
 mod frame_presets;
 mod frame_rates;
 mod frame_scene;
@@ -187,6 +189,8 @@ pub const CASES: &[Case] = &[
     frame_presets::PRESETS,
     frame_presets::CHANGE,
     frame_dry::DRY,
+    frame_age::AGE,
+    frame_home::HOME,
     frame_upload::UPLOAD,
     frame_encode::ENCODE,
     frame_staging::STAGING,
