@@ -29,6 +29,7 @@ mod frame_encode;
 mod frame_home;
 mod frame_presets;
 mod frame_rates;
+mod frame_rules;
 mod frame_scene;
 mod frame_snapshot;
 mod frame_soak;
@@ -185,6 +186,8 @@ pub const CASES: &[Case] = &[
     frame_world::WORLD,
     frame_rates::RATES,
     frame_allocations::ALLOCATIONS,
+    frame_rules::PLAN,
+    frame_rules::RULES,
     frame_soak::SOAK,
     frame_presets::PRESETS,
     frame_presets::CHANGE,

@@ -87,7 +87,7 @@ impl WaveGrid {
                 }
             }
         });
-        self.border_layer().into_iter().flat_map(|layer| layer.memory.numbers()).for_each(|numbers| f(numbers));
+        self.border_layer().into_iter().flat_map(|layer| layer.memory.numbers()).for_each(f);
     }
 
     fn border_layer(&self) -> Option<&Layer> {
