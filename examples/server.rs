@@ -38,7 +38,7 @@ struct Peer {
 
 /// What a client asks of its boat in a tick: a new course now and then.
 fn asked(client: usize, tick: u64) -> Controls {
-    let turn = (tick / 17 + 3 * client as u64) * 0x9E37_79B9 >> 7;
+    let turn = ((tick / 17 + 3 * client as u64) * 0x9E37_79B9) >> 7;
     let share = |bits: u64| (bits % 256) as f32 / 255.0;
     Controls { throttle: 0.4 + 0.6 * share(turn), steering: 2.0 * share(turn >> 8) - 1.0, ..Controls::default() }
 }

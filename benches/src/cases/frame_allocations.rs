@@ -102,7 +102,8 @@ fn wakes() -> Result<Scene, CaseError> {
 fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;
     let settle = context.pick(400, 1200);
-    let scenes: [(&str, fn() -> Result<Scene, CaseError>); 5] = [
+    type Make = fn() -> Result<Scene, CaseError>;
+    let scenes: [(&str, Make); 5] = [
         ("200 crates, a boat in its grid, the default sea", bodies),
         ("a fleet of 1,000 on the default sea", fleet),
         ("eight moored boats, anchors that drag", moored),

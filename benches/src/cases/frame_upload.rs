@@ -40,7 +40,7 @@ impl Scene {
         water.set_controls(boat, Controls { throttle, steering: 0.3, ..Controls::default() })?;
         bodies.insert(boat, BodyState::at_rest(Vec3::Y * (water.body(boat)?.rest_height() + 0.1)));
         let follow = if rain { Follow::Fixed(DVec2::ZERO) } else { Follow::Body(boat) };
-        let rain = rain.then(|| Rain { rate: 20.0, drop_radius: 5e-3, seed: 1 });
+        let rain = rain.then_some(Rain { rate: 20.0, drop_radius: 5e-3, seed: 1 });
         let grid = water.add_grid(GridDesc { follow, rain, cells: [CELLS; 2], ..Preset::Medium.grid() })?;
         Ok(Self { water, bodies, grid })
     }

@@ -27,7 +27,8 @@ use crate::store::{BodyId, BodyMotion, BodyStore, Wants};
 /// }
 /// assert!(states[0].position.y < 8.0 && states[1].position.y == 9.0);
 /// // Elements may change places between ticks.
-/// (ids.swap_remove(0), states.swap_remove(0));
+/// ids.swap_remove(0);
+/// states.swap_remove(0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Default)]

@@ -187,7 +187,8 @@ fn count(f: impl FnOnce()) -> usize {
 fn steady_ticks_ask_the_heap_for_nothing() {
     // From a thread of the pool, as a game runs its ticks: rayon's queue for others allocates a block for 63 jobs.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
-    let scenes: [(&str, fn() -> Scene); 8] = [
+    type Make = fn() -> Scene;
+    let scenes: [(&str, Make); 8] = [
         ("bodies in a grid", bodies_in_a_grid),
         ("other schemes", other_schemes),
         ("fleets", fleets),

@@ -105,6 +105,7 @@ fn flat(elevation: f32, corner: f64, texel: f32) -> Result<DepthMap, open_water:
 
 /// A call with something that is no number.
 type Call = fn(&mut Scene, f32) -> Answer;
+type Say = fn(&mut Scene, f32);
 
 /// What answers with an error.
 const REFUSED: &[(&str, Call)] = &[
@@ -196,7 +197,7 @@ const REFUSED: &[(&str, Call)] = &[
 ];
 
 /// What has no error to give: it is as if it had not been said.
-const IGNORED: &[(&str, fn(&mut Scene, f32))] = &[
+const IGNORED: &[(&str, Say)] = &[
     ("state: position", |s, bad| s.state().position.x = bad),
     ("state: orientation", |s, bad| s.state().orientation.w = bad),
     ("state: velocity", |s, bad| s.state().velocity.y = bad),

@@ -96,13 +96,15 @@ fn slices_give_the_same_motion_whatever_order_they_are_in() {
     let mut keys: Vec<_> = ids.iter().copied().map(Some).collect();
     let mut states: Vec<_> = (0..5).map(|i| at(3.0 * i as f32)).collect();
     // What does not float lies between, and what has no state behind.
-    (keys.insert(2, None), states.insert(2, at(-50.0)));
+    keys.insert(2, None);
+    states.insert(2, at(-50.0));
     let gone = water.add_body(crate_desc()).unwrap();
     water.remove_body(gone).unwrap();
     keys.push(Some(gone));
     for step in 0..120 {
         if step % 7 == 3 {
-            (keys[..6].rotate_left(1), states.rotate_left(1));
+            keys[..6].rotate_left(1);
+            states.rotate_left(1);
         }
         tick(&mut water, &mut slices.store(&keys, &mut states));
     }
@@ -174,7 +176,8 @@ fn a_body_belongs_to_the_first_store_that_has_a_state_for_it() {
     assert_eq!(second.get(ids[1]), Some(&at(90.0)));
     assert!(first.get(ids[0]).is_none() && second.get(ids[0]).is_none() && water.drawn_pose(ids[3]).is_none());
     // Taken out of the first, it is the second's.
-    (first.remove(ids[1]), engine.state = None);
+    first.remove(ids[1]);
+    engine.state = None;
     tick(&mut water, &mut Stores(&mut [&mut engine, &mut first, &mut second]));
     assert!(second.get(ids[1]).unwrap().position.x > 80.0 && water.drawn_pose(ids[0]).is_none());
     assert_eq!(water.reports().teleports, 1);

@@ -265,7 +265,7 @@ impl Life {
 
     fn change_sea_itself(&mut self) -> Result<(), CaseError> {
         let over = self.number(0.0, 5.0);
-        Ok(match self.which(8) {
+        match self.which(8) {
             0 => self.water.set_quality(Preset::Low)?,
             1..=3 => {
                 let choppiness = self.number(0.0, 1.0);
@@ -275,7 +275,8 @@ impl Life {
                 let tiles = [[120.0, 18.0], [90.0, 14.0]][n % 2];
                 self.water.set_cascades(tiles.map(|tile| CascadeDesc::new(32, tile)).to_vec(), over)?;
             }
-        })
+        }
+        Ok(())
     }
 
     /// Other cells, or another home.
