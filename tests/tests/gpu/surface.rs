@@ -5,6 +5,7 @@ mod fade;
 mod include;
 mod land;
 mod rebase;
+mod restore;
 mod uploads;
 
 use glam::{DVec2, Vec2, Vec3};
