@@ -1,5 +1,8 @@
 //! Case `frame_encode`: what recording a frame's water costs against the same calls of wgpu by hand.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use floating_body::BodyDesc;
 use open_water::{BodyStates, Consumers, Controls, Follow, GridDesc, OpenWater, OpenWaterDesc, Preset};
 use open_water_shaders::pipeline::{Slot, bind_group, group_layout, pipeline_layout};
@@ -25,6 +28,8 @@ struct Hand {
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,
     staging: wgpu::Buffer,
+    /// It is mapped: who writes into it again must know.
+    ready: Arc<AtomicBool>,
     target: wgpu::Buffer,
 }
 
@@ -54,7 +59,7 @@ impl Hand {
             cache: None,
         });
         let group = bind_group(device, "hand", &layout, &[target.as_entire_binding()]);
-        Self { pipeline, group, staging, target }
+        Self { pipeline, group, staging, ready: Arc::default(), target }
     }
 
     fn encode(&self, encoder: &mut wgpu::CommandEncoder, bytes: &[u8], copies: u64, dispatches: u32) {
@@ -75,7 +80,10 @@ impl Hand {
         }
         drop(pass);
         self.staging.unmap();
-        encoder.map_buffer_on_submit(&self.staging, wgpu::MapMode::Write, .., |_| {});
+        let ready = Arc::clone(&self.ready);
+        encoder.map_buffer_on_submit(&self.staging, wgpu::MapMode::Write, .., move |mapped| {
+            ready.store(mapped.is_ok(), Ordering::Relaxed);
+        });
     }
 }
 

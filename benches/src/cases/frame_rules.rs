@@ -2,8 +2,8 @@
 
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
-    BodyDesc, BodyState, BodyStates, Border, CascadeDesc, Consumers, Follow, GridDesc, OpenWater, OpenWaterDesc, Rules,
-    View,
+    BodyDesc, BodyState, BodyStates, Border, CascadeDesc, Consumers, Follow, GridDesc, OpenWater, OpenWaterDesc,
+    Preset, Rules, View,
 };
 
 use super::facade::probe;
@@ -96,13 +96,13 @@ fn trials() -> [Trial; 8] {
         Trial { name: "the same moment", rule: Rules::UNCHANGED, frame: 0.0, ..near },
         Trial { name: "1.5 km up", rule: short, others: still | far, eye: Vec3::Y * 1500.0, bound: 1.0, ..near },
         Trial { name: "4 km up", rule: still, others: short | far, eye: Vec3::Y * 4e3, bound: 0.1, ..near },
-        Trial { name: "wakes 12 km off", rule: far, eye: Vec3::new(12e3, 6.0, 0.0), bound: 1.0, ..near },
+        Trial { name: "a wake 20 km off", rule: far, eye: Vec3::new(20e3, 6.0, 0.0), bound: 1.0, ..near },
         Trial { name: "no bodies", rule: Rules::UNREAD, ..near },
     ]
 }
 
 fn water_of(gpu: &Gpu, trial: &Trial) -> Result<Scene, CaseError> {
-    let mut scene = Scene::new(Some(gpu), &SceneDesc { flotsam: 0, follow: false, ..SceneDesc::default() })?;
+    let mut scene = Scene::new(Some(gpu), &SceneDesc { preset: Preset::Low, flotsam: 0, ..SceneDesc::default() })?;
     if trial.rule == Rules::ASLEEP {
         for k in 1..4 {
             let follow = Follow::Fixed(DVec2::splat(1000.0 * f64::from(k)));

@@ -75,6 +75,7 @@ impl Grid {
     }
 
     /// Age (s) and standard deviation (m) of a sample at a local point; `None` where it is exact.
+    #[cfg_attr(not(feature = "gpu"), expect(unused_variables, reason = "all grids are here"))]
     pub(crate) fn doubt(&self, point: Vec2) -> Option<[f32; 2]> {
         match &self.sim {
             Sim::Cpu(_) => None,

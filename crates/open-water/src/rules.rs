@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 use ocean_spectrum::Ocean;
 
 use crate::desc::{Consumers, View};
-use crate::grids::{Grid, Sim};
+use crate::grids::Grid;
 use crate::plan::Reason;
 use crate::planner::{Shown, ShownSea};
 use crate::water::OpenWater;
@@ -120,7 +120,6 @@ pub(crate) fn asleep(rules: Rules, grid: &Grid) -> bool {
 
 /// Rule [`Rules::FAR`] for a CPU-homed grid. Those on the GPU are drawn for what comes back of them.
 pub(crate) fn far(rules: Rules, grid: &Grid, views: &[View], level: f32) -> bool {
-    let Sim::Cpu(waves) = &grid.sim else { return false };
     if !rules.contains(Rules::FAR) || grid.repeats() {
         return false;
     }
@@ -133,7 +132,7 @@ pub(crate) fn far(rules: Rules, grid: &Grid, views: &[View], level: f32) -> bool
         off.length().hypot(eye.y - level)
     });
     pixel >= CELLS_A_PIXEL * window.cell_size[0].min(window.cell_size[1])
-        && waves.largest_within(low, low + size) < LOW_PIXELS * pixel
+        && grid.largest_within(low, low + size) < LOW_PIXELS * pixel
 }
 
 /// Rule [`Rules::FAR`] for a dry hull of that size at a place.

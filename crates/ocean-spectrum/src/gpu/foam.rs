@@ -63,17 +63,17 @@ impl Divergence {
     }
 
     /// What the shader knows of each cascade: spread and share.
-    pub(super) fn cascades(&self, moment: &Moment) -> Vec<(f32, f32)> {
+    pub(super) fn cascades(&self, moment: &Moment) -> impl Iterator<Item = (f32, f32)> {
         let [a, b] = moment.weight.map(f64::from);
         let chop = f64::from(moment.choppiness);
-        let variance =
-            |[one, two, mixed]: &[f64; 3]| chop * chop * (a * a * one + b * b * two + 2.0 * a * b * mixed).max(0.0);
+        let variance = move |[one, two, mixed]: &[f64; 3]| {
+            chop * chop * (a * a * one + b * b * two + 2.0 * a * b * mixed).max(0.0)
+        };
         let total: f64 = self.terms.iter().map(variance).sum();
         let spread = |variance: f64| (variance.max(0.0) + SOFTNESS * SOFTNESS).sqrt();
         // Logistic in place of the normal distribution, as in the shader.
         let mean = 1.0 / (1.0 + libm::exp(1.702 * (1.0 - f64::from(FOAM_THRESHOLD)) / spread(total)));
         let others = 1.0 - 1.0 / self.terms.len().max(1) as f64;
-        let cascade = |terms| (spread(total - variance(terms)) as f32, (mean * others) as f32);
-        self.terms.iter().map(cascade).collect()
+        self.terms.iter().map(move |terms| (spread(total - variance(terms)) as f32, (mean * others) as f32))
     }
 }

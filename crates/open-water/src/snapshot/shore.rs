@@ -154,8 +154,9 @@ mod values {
 
     impl<'de> Deserialize<'de> for Maps {
         fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-            let (factors, incoming) = Deserialize::deserialize(from)?;
-            Ok(Self(Arc::new(Baked { factors, incoming, ..Baked::default() })))
+            let mut baked = Baked::default();
+            (baked.factors, baked.incoming) = Deserialize::deserialize(from)?;
+            Ok(Self(Arc::new(baked)))
         }
     }
 }
