@@ -22,7 +22,9 @@ use crate::handover::{Homes, Settler};
 use crate::rebase::lifted;
 use crate::store::{BodyId, BodyMotion, BodyStore, GridId, Wants};
 use crate::{OpenWaterError, Reports};
-pub(crate) use moments::{BodiesMoment, BodyMoment, Kind};
+#[cfg(feature = "serde")]
+pub(crate) use moments::BodyMoment;
+pub(crate) use moments::{BodiesMoment, Kind};
 
 /// Bodies per task: a tick of a small body is well below a microsecond.
 const CHUNK: usize = 16;

@@ -56,9 +56,8 @@ fn crates_apart(sections: &mut Sections) -> Result<(), Failure> {
         }
     }
     for (name, feature) in ALONE {
-        sections.cargo(&format!(
-            "clippy --quiet -p {name} --no-default-features --features {feature} --all-targets -- -D warnings"
-        ))?;
+        sections
+            .cargo(&format!("clippy --quiet -p {name} --no-default-features --features {feature} -- -D warnings"))?;
     }
     Ok(())
 }
