@@ -18,8 +18,8 @@ const EBB: f32 = 30.0;
 impl OpenWater {
     /// Homes a grid on the CPU or the GPU from the next tick on, without a step in what is drawn and felt. Its handle stays.
     /// Until the waves that it has now have left its window, or have faded after 30 s, these stay where they are: meanwhile both
-    /// are stepped, and count as two of [`crate::MAX_GRIDS`]. The first grid of water waves on a device takes the time in
-    /// which its pipelines are compiled, unless there was one before.
+    /// are stepped, and count as two of [`crate::MAX_GRIDS`]. The first grid on a device takes the time in which its
+    /// pipelines are compiled, unless [`Self::prepare_gpu_grids`] had them compiled before.
     ///
     /// # Errors
     /// As [`Self::add_grid`] for a grid of that home; there is no such grid, it is one of [`Self::set_wakes`], fed, in another or

@@ -62,7 +62,8 @@ struct Made {
 /// Runs a job on a thread of its own, so that the ticks' threads are free.
 pub(crate) fn beside(job: impl FnOnce() + Send + 'static) {
     static POOL: OnceLock<Option<rayon::ThreadPool>> = OnceLock::new();
-    let pool = || rayon::ThreadPoolBuilder::new().num_threads(1).thread_name(|_| "open-water sea".into()).build().ok();
+    let pool =
+        || rayon::ThreadPoolBuilder::new().num_threads(1).thread_name(|_| "open-water beside".into()).build().ok();
     match POOL.get_or_init(pool) {
         Some(pool) => pool.spawn(job),
         None => job(),

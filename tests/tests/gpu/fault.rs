@@ -156,24 +156,26 @@ fn a_shader_that_does_not_compile_is_named() {
         assert!(matches!(error, OpenWaterError::Device { .. }), "{name}: {text}");
         assert!(text.contains(name) && text.contains("no_such_name") && text.contains("headless"), "{name}: {text}");
     };
-    let always =
-        ["ocean_looks", "ocean_mips", "grid_medium", "grid_schedule", "grid_prepare", "grid_step", "grid_draw"];
-    for name in always {
+    for name in ["ocean_looks", "ocean_mips"] {
         inject(Some(Injected::Shader(name)));
         let broken = OpenWater::new(&context.device, &context.queue, Preset::Low.water()).map(|_| ());
         inject(None);
         named(broken.unwrap_err(), name);
     }
     let mut water = OpenWater::new(&context.device, &context.queue, Preset::Low.water()).unwrap();
-    let dispersive = GridDesc { scheme: Scheme::Dispersive, ..remote() };
-    for name in ["grid_water_medium", "grid_water_prepare", "grid_water_step"] {
-        inject(Some(Injected::Shader(name)));
-        let broken = water.add_grid(dispersive.clone()).map(|_| ());
-        inject(None);
-        named(broken.unwrap_err(), name);
-        assert_eq!(water.grid_count(), 0);
+    let waves = ["grid_medium", "grid_schedule", "grid_prepare", "grid_step", "grid_draw"];
+    let dispersive = ["grid_water_medium", "grid_water_prepare", "grid_water_step"];
+    for (scheme, names) in [(Scheme::NinePoint, &waves[..]), (Scheme::Dispersive, &dispersive)] {
+        let grid = GridDesc { scheme, ..remote() };
+        for name in names {
+            inject(Some(Injected::Shader(name)));
+            let broken = water.add_grid(grid.clone()).map(|_| ());
+            inject(None);
+            named(broken.unwrap_err(), name);
+            assert_eq!(water.grid_count(), usize::from(scheme == Scheme::Dispersive));
+        }
+        water.add_grid(grid).unwrap();
     }
-    water.add_grid(dispersive).unwrap();
     assert_eq!(context.take_errors(), Vec::<String>::new());
 }
 

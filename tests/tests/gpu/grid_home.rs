@@ -8,6 +8,8 @@ use open_water::{
     OpenWaterError, Scheme, WaterSample,
 };
 
+use open_water_shaders::pipeline::{Injected, inject};
+
 use crate::context::Context;
 use crate::surface::{DT, Scene, calm, view};
 
@@ -204,4 +206,27 @@ fn near() -> GridDesc {
         scheme: Scheme::NinePoint,
         ..GridDesc::default()
     }
+}
+
+#[test]
+fn pipelines_that_were_compiled_beside_are_used() {
+    let context = Context::new();
+    let (mut scene, grid) = dropped(Some(&context), GridHome::Cpu, Scheme::Dispersive);
+    for asked in 0.. {
+        if scene.water.prepare_gpu_grids() {
+            break;
+        }
+        assert!(asked < 10_000);
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    for shader in ["grid_step", "grid_water_step"] {
+        // Were anything compiled in the call, it would be refused.
+        inject(Some(Injected::Shader(shader)));
+        let moved = scene.water.set_grid_home(grid, GridHome::Gpu);
+        inject(None);
+        moved.unwrap();
+        scene.frame(Some(&context), DT, Consumers::empty());
+        scene.water.set_grid_home(grid, GridHome::Cpu).unwrap();
+    }
+    assert_eq!(context.take_errors(), Vec::<String>::new());
 }

@@ -15,6 +15,7 @@ use crate::grids::{Grids, Sim};
 use crate::plan::{FramePlan, Reason, SkippedWork, Work};
 use crate::planner::Shown;
 use crate::rules;
+use crate::sea::beside;
 use crate::water::OpenWater;
 
 /// Copies under way at most: of four frames in flight, and of the one that is being encoded.
@@ -115,6 +116,8 @@ pub(crate) struct RemoteGrids {
     tick: u64,
     /// Heights on their way from a copy.
     heights: [Vec<f32>; 2],
+    /// The pipelines are compiled beside, or were.
+    compiling: bool,
 }
 
 impl RemoteGrids {
@@ -125,6 +128,7 @@ impl RemoteGrids {
             draws: Vec::new(),
             tick: 0,
             heights: Default::default(),
+            compiling: false,
         }
     }
 
@@ -145,6 +149,14 @@ impl RemoteGrids {
             copied: 0,
             mirror: Mirror::new(desc.cells, desc.cell_size, desc.tick),
         })
+    }
+
+    /// Has compiled beside what grids need, once. Returns whether it is there.
+    pub(crate) fn compile_beside(&mut self) -> bool {
+        if !std::mem::replace(&mut self.compiling, true) {
+            beside(self.grids.compiler(&self.device));
+        }
+        self.grids.is_compiled()
     }
 
     /// Makes what the grids need of the device.

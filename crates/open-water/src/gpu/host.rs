@@ -18,6 +18,13 @@ impl OpenWater {
         limits::least()
     }
 
+    /// Has compiled beside what GPU-homed grids need of the device, so that the first one, added or moved there, does not
+    /// take the time for it. Returns whether it is there: ask in every frame of a loading screen. A grid that comes before
+    /// waits for it. Without a device there is nothing to do.
+    pub fn prepare_gpu_grids(&mut self) -> bool {
+        self.gpu.as_mut().is_none_or(|gpu| gpu.lost || gpu.remote.compile_beside())
+    }
+
     /// Records the plan's work into the host's encoder, uploads included: several encoders of one submission each show
     /// their own moment, and one that is dropped leaves nothing behind (then drop those encoded after it, too). Submit them
     /// in the order in which they were encoded. Does nothing without a device, nor on one that is lost ([`Self::is_device_lost`]).

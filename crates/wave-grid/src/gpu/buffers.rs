@@ -315,7 +315,7 @@ impl Buffers {
             let lists = [&self.sources.buffer, &self.cells.buffer, &self.list, &self.counts.buffer, &self.marks];
             let [schedule, lists] = [&schedule[..], &lists[..]]
                 .map(|buffers| buffers.iter().map(|buffer| buffer.as_entire_binding()).collect::<Vec<_>>());
-            let water = passes.water.as_ref().filter(|_| any_water).map(|passes| {
+            let water = passes.water().filter(|_| any_water).map(|passes| {
                 let params = first(&self.water, size_of::<TickWater>());
                 let of = |layout, others: &[&wgpu::Buffer]| {
                     let mut resources = vec![params.clone()];
@@ -331,9 +331,9 @@ impl Buffers {
             });
             Groups {
                 water,
-                state: bind_group(device, "grid state", &passes.state_layout, &state),
-                schedule: bind_group(device, "grid schedule", &passes.schedule_layout, &schedule),
-                lists: bind_group(device, "grid lists", &passes.lists_layout, &lists),
+                state: bind_group(device, "grid state", &passes.layouts.state, &state),
+                schedule: bind_group(device, "grid schedule", &passes.layouts.schedule, &schedule),
+                lists: bind_group(device, "grid lists", &passes.layouts.lists, &lists),
                 counts: self.counts.buffer.clone(),
             }
         })
@@ -359,7 +359,7 @@ impl Buffers {
         self.draw_group.get_or_insert_with(|| {
             let buffers = [&self.draws.buffer, &self.heights, pool, &self.ground];
             let resources = buffers.map(wgpu::Buffer::as_entire_binding);
-            (pool.clone(), bind_group(frame.device(), "grid draw", &passes.draw_layout, &resources))
+            (pool.clone(), bind_group(frame.device(), "grid draw", &passes.layouts.draw, &resources))
         });
     }
 }

@@ -38,16 +38,27 @@ impl GpuGrids {
     pub fn prepare(&mut self, device: &wgpu::Device) {
         let (vectors, water, felt) = self.needs();
         self.buffers.prepare(device, vectors, water, felt);
-        if self.grids.iter().any(|grid| grid.water.is_some() && !grid.removed) {
-            self.passes.need_water(device);
+        let mut left = self.grids.iter().filter(|grid| !grid.removed).peekable();
+        if left.peek().is_some() {
+            self.passes.need(device, left.any(|grid| grid.water.is_some()));
         }
+    }
+
+    /// A job for another thread that compiles beforehand what grids of any kind need, so that the first one need not. A grid
+    /// that comes meanwhile waits for it; what is refused is told when a grid needs it.
+    pub fn compiler(&self, device: &wgpu::Device) -> impl FnOnce() + use<> {
+        self.passes.compiler(device)
+    }
+
+    /// Whether all that [`Self::compiler`] compiles is there.
+    pub fn is_compiled(&self) -> bool {
+        self.passes.waves().is_some() && self.passes.water().is_some()
     }
 
     /// Lets go of what was prepared for nothing.
     pub fn unprepare(&mut self) {
         self.buffers.unprepare();
         while self.grids.pop_if(|grid| grid.removed && grid.ticks == 0).is_some() {}
-        self.passes.water = self.passes.water.take().filter(|_| self.grids.iter().any(|grid| grid.water.is_some()));
     }
 
     /// Encodes the queued ticks, and takes what has come back of earlier ones. The ticks of encoders that were dropped are
@@ -81,9 +92,7 @@ impl GpuGrids {
         }
         self.reserve(frame);
         let any_water = self.ticks.iter().any(|tick| tick.water.is_some());
-        if any_water {
-            self.passes.need_water(frame.device());
-        }
+        self.passes.need(frame.device(), any_water);
         if !self.buffers.upload(frame, &mut self.ticks) {
             return false;
         }
@@ -168,6 +177,7 @@ impl GpuGrids {
             holes: drawn.iter().any(|draw| draw.hole_count > 0),
             workgroups: [x.div_ceil(DRAW_THREADS), y, drawn.len() as u32],
         });
+        self.passes.need(frame.device(), false);
         self.buffers.upload_draws(frame, &self.passes, pool, drawn);
         true
     }
@@ -178,7 +188,8 @@ impl GpuGrids {
         else {
             return 0;
         };
-        pass.set_pipeline(&self.passes.draw[usize::from(felt)][usize::from(holes)]);
+        let Some(waves) = self.passes.waves() else { return 0 };
+        pass.set_pipeline(&waves.draw[usize::from(felt)][usize::from(holes)]);
         pass.set_bind_group(0, group, &[]);
         pass.dispatch_workgroups(x, y, z);
         1

@@ -80,7 +80,7 @@ pub struct GpuGrids {
 }
 
 impl GpuGrids {
-    /// No grids yet. Compiles the pipelines.
+    /// No grids yet. The first one has the pipelines compiled ([`Self::prepare`]), unless [`Self::compiler`] did.
     pub fn new(device: &wgpu::Device) -> Self {
         let passes = Passes::new(device);
         let buffers = Buffers::new(device);

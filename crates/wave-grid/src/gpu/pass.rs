@@ -1,22 +1,45 @@
-//! The pipelines of the grid passes and their layouts.
+//! The pipelines of the grid passes and their layouts. They are compiled when the first grid needs them, or beside before that.
+
+use std::sync::{Arc, OnceLock};
 
 use super::MAX_GRIDS;
 use super::pack::{Kind, TileKind};
 use super::water_pass::WaterPasses;
 use open_water_shaders::grid::{self as shader, GridDispatch, GridDraw, StepShape, TickParams};
-use open_water_shaders::pipeline::{Slot, compute_pipeline, group_layout};
+use open_water_shaders::pipeline::{Slot, compute_pipeline, group_layout, guarded};
 
 /// Bytes between the dispatches' uniforms: WebGPU's alignment of dynamic offsets.
 pub(super) const DISPATCH_STRIDE: u32 = 256;
 
-/// Pipelines and layouts.
-#[derive(Debug)]
-pub(super) struct Passes {
-    pub(super) state_layout: wgpu::BindGroupLayout,
+/// Layouts that do not depend on what grids there are.
+#[derive(Debug, Clone)]
+pub(super) struct Layouts {
+    pub(super) state: wgpu::BindGroupLayout,
     /// Group 1 of the schedule, and of all others.
-    pub(super) schedule_layout: wgpu::BindGroupLayout,
-    pub(super) lists_layout: wgpu::BindGroupLayout,
-    pub(super) draw_layout: wgpu::BindGroupLayout,
+    pub(super) schedule: wgpu::BindGroupLayout,
+    pub(super) lists: wgpu::BindGroupLayout,
+    pub(super) draw: wgpu::BindGroupLayout,
+}
+
+impl Layouts {
+    fn new(device: &wgpu::Device) -> Self {
+        let compute = wgpu::ShaderStages::COMPUTE;
+        let uniform = Slot::DynamicUniform { size: size_of::<GridDispatch>() };
+        let params = Slot::DynamicUniform { size: size_of::<TickParams>() };
+        let (read, write) = (Slot::Read, Slot::ReadWrite);
+        let draws = Slot::Uniform { size: MAX_GRIDS * size_of::<GridDraw>() };
+        Self {
+            state: group_layout(device, "grid state", compute, &[uniform, params, write, write, write]),
+            schedule: group_layout(device, "grid schedule", compute, &[read, write, write, write]),
+            lists: group_layout(device, "grid lists", compute, &[read, read, read, read, write]),
+            draw: group_layout(device, "grid draw", compute, &[draws, read, write, read]),
+        }
+    }
+}
+
+/// The pipelines that all grids need.
+#[derive(Debug)]
+pub(super) struct WavePasses {
     medium: wgpu::ComputePipeline,
     schedule: wgpu::ComputePipeline,
     /// For grids that stood, and for ones that may have moved; each without and with mixed tiles.
@@ -26,34 +49,17 @@ pub(super) struct Passes {
     step: [[[wgpu::ComputePipeline; 2]; 2]; 2],
     /// Without and with grids that have walls, each without and with ones that have holes.
     pub(super) draw: [[wgpu::ComputePipeline; 2]; 2],
-    shape: StepShape,
-    /// Once there has been a dispersive grid.
-    pub(super) water: Option<WaterPasses>,
 }
 
-impl Passes {
-    pub(super) fn new(device: &wgpu::Device) -> Self {
-        let compute = wgpu::ShaderStages::COMPUTE;
-        let uniform = Slot::DynamicUniform { size: size_of::<GridDispatch>() };
-        let params = Slot::DynamicUniform { size: size_of::<TickParams>() };
-        let (read, write) = (Slot::Read, Slot::ReadWrite);
-        let state = [uniform, params, write, write, write];
-        let draws = Slot::Uniform { size: MAX_GRIDS * size_of::<GridDraw>() };
-        let state_layout = group_layout(device, "grid state", compute, &state);
-        let lists_layout = group_layout(device, "grid lists", compute, &[read, read, read, read, write]);
-        let schedule_layout = group_layout(device, "grid schedule", compute, &[read, write, write, write]);
-        let draw_layout = group_layout(device, "grid draw", compute, &[draws, read, write, read]);
+impl WavePasses {
+    fn new(device: &wgpu::Device, layouts: &Layouts, shape: StepShape) -> Self {
         let pipeline =
             |pass: &open_water_shaders::Pass, layouts: &[&wgpu::BindGroupLayout], constants: &[(&str, f64)]| {
                 compute_pipeline(device, pass, pass.name, layouts, constants)
             };
-        let listed = [&state_layout, &lists_layout];
+        let listed = [&layouts.state, &layouts.lists];
         const BOTH: [f64; 2] = [0.0, 1.0];
         let prepare = |moved, medium| pipeline(&shader::PREPARE, &listed, &[("MOVED", moved), ("MEDIUM", medium)]);
-        let shape = match device.adapter_info().device_type {
-            wgpu::DeviceType::Cpu => StepShape::SOFTWARE,
-            _ => StepShape::GPU,
-        };
         let [rows, threads] = [shape.rows, shape.threads].map(f64::from);
         let step = |layer, last, mixed| {
             let kind = [("LAYER", layer), ("LAST", last), ("MIXED", mixed), ("ROWS", rows), ("THREADS", threads)];
@@ -62,45 +68,102 @@ impl Passes {
         Self {
             schedule: pipeline(
                 &shader::SCHEDULE,
-                &[&state_layout, &schedule_layout],
+                &[&layouts.state, &layouts.schedule],
                 &[("TILES_PER_GROUP", f64::from(shape.tiles()))],
             ),
             medium: pipeline(&shader::MEDIUM, &listed, &[]),
             prepare: BOTH.map(|moved| BOTH.map(|medium| prepare(moved, medium))),
             step: BOTH.map(|layer| BOTH.map(|last| BOTH.map(|mixed| step(layer, last, mixed)))),
             draw: BOTH.map(|medium| {
-                let draw = |holes| pipeline(&shader::DRAW, &[&draw_layout], &[("MEDIUM", medium), ("HOLES", holes)]);
+                let draw = |holes| pipeline(&shader::DRAW, &[&layouts.draw], &[("MEDIUM", medium), ("HOLES", holes)]);
                 BOTH.map(draw)
             }),
-            state_layout,
-            draw_layout,
-            schedule_layout,
-            lists_layout,
-            shape,
-            water: None,
+        }
+    }
+}
+
+/// What is compiled once, by whoever comes first; `None` where it was refused.
+#[derive(Debug)]
+struct Late<T>(Arc<OnceLock<Option<T>>>);
+
+impl<T> Late<T> {
+    fn get(&self) -> Option<&T> {
+        self.0.get()?.as_ref()
+    }
+
+    /// Makes it unless it is there; where it is being made beside, waits for that.
+    fn need(&mut self, device: &wgpu::Device, make: impl Fn() -> T) {
+        if self.0.get_or_init(|| guarded(device, &make).ok()).is_none() {
+            // Another grid tries anew, and whoever guards this call is told why.
+            self.0 = Arc::default();
+            make();
+        }
+    }
+}
+
+/// Pipelines and layouts.
+#[derive(Debug)]
+pub(super) struct Passes {
+    pub(super) layouts: Layouts,
+    shape: StepShape,
+    waves: Late<WavePasses>,
+    /// What dispersive grids need besides.
+    water: Late<WaterPasses>,
+}
+
+impl Passes {
+    pub(super) fn new(device: &wgpu::Device) -> Self {
+        let shape = match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => StepShape::SOFTWARE,
+            _ => StepShape::GPU,
+        };
+        Self { layouts: Layouts::new(device), shape, waves: Late(Arc::default()), water: Late(Arc::default()) }
+    }
+
+    /// Compiles what grids need, dispersive ones if there is any `water`, once.
+    pub(super) fn need(&mut self, device: &wgpu::Device, water: bool) {
+        let Self { layouts, shape, .. } = self;
+        self.waves.need(device, || WavePasses::new(device, layouts, *shape));
+        if water {
+            self.water.need(device, || WaterPasses::new(device, &layouts.state, *shape));
         }
     }
 
-    /// Compiles what dispersive grids need, once.
-    pub(super) fn need_water(&mut self, device: &wgpu::Device) {
-        if self.water.is_none() {
-            self.water = Some(WaterPasses::new(device, &self.state_layout, self.shape));
+    /// Does the same for all that there may be, on any thread.
+    pub(super) fn compiler(&self, device: &wgpu::Device) -> impl FnOnce() + use<> {
+        let Self { layouts, shape, waves, water } = self;
+        let (device, layouts, shape) = (device.clone(), layouts.clone(), *shape);
+        let (waves, water) = (Arc::clone(&waves.0), Arc::clone(&water.0));
+        move || {
+            waves.get_or_init(|| guarded(&device, || WavePasses::new(&device, &layouts, shape)).ok());
+            water.get_or_init(|| guarded(&device, || WaterPasses::new(&device, &layouts.state, shape)).ok());
         }
     }
 
-    /// The pipeline of a dispatch; `None` where what dispersive grids need has not been compiled.
+    /// What dispersive grids need; `None` before it has been compiled.
+    pub(super) fn water(&self) -> Option<&WaterPasses> {
+        self.water.get()
+    }
+
+    /// What all need; `None` before it has been compiled.
+    pub(super) fn waves(&self) -> Option<&WavePasses> {
+        self.waves.get()
+    }
+
+    /// The pipeline of a dispatch; `None` where it has not been compiled.
     pub(super) fn of(&self, kind: Kind) -> Option<&wgpu::ComputePipeline> {
+        let waves = self.waves.get()?;
         Some(match kind {
-            Kind::Medium => &self.medium,
-            Kind::Schedule => &self.schedule,
-            Kind::Prepare { moved, medium } => &self.prepare[usize::from(moved)][usize::from(medium)],
+            Kind::Medium => &waves.medium,
+            Kind::Schedule => &waves.schedule,
+            Kind::Prepare { moved, medium } => &waves.prepare[usize::from(moved)][usize::from(medium)],
             Kind::Step { tiles, last } => {
                 let TileKind { layer, mixed } = tiles;
-                &self.step[usize::from(layer)][usize::from(last)][usize::from(mixed)]
+                &waves.step[usize::from(layer)][usize::from(last)][usize::from(mixed)]
             }
-            Kind::WaterMedium => &self.water.as_ref()?.medium,
-            Kind::WaterPrepare => &self.water.as_ref()?.prepare,
-            Kind::WaterStep { mixed, last } => &self.water.as_ref()?.step[usize::from(last)][usize::from(mixed)],
+            Kind::WaterMedium => &self.water()?.medium,
+            Kind::WaterPrepare => &self.water()?.prepare,
+            Kind::WaterStep { mixed, last } => &self.water()?.step[usize::from(last)][usize::from(mixed)],
         })
     }
 }

@@ -27,8 +27,8 @@ pub struct Answer<'a> {
 #[derive(Debug)]
 pub(super) struct Queries {
     layout: wgpu::BindGroupLayout,
-    /// Without and with grids that have walls.
-    pipelines: [wgpu::ComputePipeline; 2],
+    /// Without and with grids that have walls; none before the first query.
+    pipelines: Option<[wgpu::ComputePipeline; 2]>,
     lists: Option<Lists>,
     /// The newest answer, the tick it is of, and the number of its copy.
     samples: Vec<GridSample>,
@@ -50,10 +50,14 @@ impl Queries {
         let uniform = Slot::Uniform { size: size_of::<GridQueries>() };
         let slots = [uniform, Slot::Read, Slot::Read, Slot::Read, Slot::ReadWrite];
         let layout = group_layout(device, "grid query", compute, &slots);
-        let pipelines = [0.0, 1.0].map(|medium| {
-            compute_pipeline(device, &shader::QUERY, shader::QUERY.name, &[&layout], &[("MEDIUM", medium)])
-        });
-        Self { layout, pipelines, lists: None, samples: Vec::new(), of: None }
+        Self { layout, pipelines: None, lists: None, samples: Vec::new(), of: None }
+    }
+
+    fn pipelines(&mut self, device: &wgpu::Device) -> &[wgpu::ComputePipeline; 2] {
+        let layout = &self.layout;
+        let pipeline =
+            |medium| compute_pipeline(device, &shader::QUERY, shader::QUERY.name, &[layout], &[("MEDIUM", medium)]);
+        self.pipelines.get_or_insert_with(|| [0.0, 1.0].map(pipeline))
     }
 }
 
@@ -110,8 +114,9 @@ impl GpuGrids {
         let resources = resources.map(wgpu::Buffer::as_entire_binding);
         let group = bind_group(frame.device(), "grid query", &self.queries.layout, &resources);
         let of = wgpu::ComputePassDescriptor { label: Some("grid query"), ..Default::default() };
+        let device = frame.device().clone();
         let mut pass = frame.encoder.begin_compute_pass(&of);
-        pass.set_pipeline(&self.queries.pipelines[usize::from(felt)]);
+        pass.set_pipeline(&self.queries.pipelines(&device)[usize::from(felt)]);
         pass.set_bind_group(0, &group, &[]);
         pass.dispatch_workgroups(asked.points.div_ceil(QUERY_THREADS), 1, 1);
         drop(pass);
