@@ -19,6 +19,9 @@ pub(crate) mod floats {
         from.deserialize_bytes(Floats)
     }
 
+    /// Largest number that is read.
+    const MOST: f32 = 1e6;
+
     struct Floats;
 
     impl<'de> Visitor<'de> for Floats {
@@ -32,7 +35,14 @@ pub(crate) mod floats {
             if !bytes.len().is_multiple_of(4) {
                 return Err(E::invalid_length(bytes.len(), &self));
             }
-            Ok(bytes.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
+            let number = |bytes: &[u8; 4]| {
+                let number = f32::from_le_bytes(*bytes);
+                // Steps bound what grids hold far below; NaN is not below either.
+                (number.abs() <= MOST)
+                    .then_some(number)
+                    .ok_or_else(|| E::custom("numbers of a grid are to be within 1e6"))
+            };
+            bytes.as_chunks().0.iter().map(number).collect()
         }
 
         fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {

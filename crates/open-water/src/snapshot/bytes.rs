@@ -24,7 +24,7 @@ const MAGIC: [u8; 4] = *b"owsn";
 /// Of the format. It changes whenever what is held does; no version reads another's bytes.
 const VERSION: u32 = 1;
 /// Magic, version, digest.
-const HEADER: usize = 16;
+pub(super) const HEADER: usize = 16;
 
 /// Why bytes are no snapshot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -123,7 +123,7 @@ impl WaterSnapshot {
     }
 }
 
-fn digest(bytes: &[u8]) -> u64 {
+pub(super) fn digest(bytes: &[u8]) -> u64 {
     let mut digest = Digest::new();
     digest.bytes(bytes);
     digest.finish()

@@ -7,6 +7,8 @@
 
 #[cfg(feature = "serde")]
 mod bytes;
+#[cfg(all(test, feature = "serde"))]
+mod fuzz;
 mod grids;
 #[cfg(feature = "serde")]
 mod hash;
