@@ -24,7 +24,7 @@ const ALONE: [(&str, &str); 9] = [
     ("open-water", "tracing"),
 ];
 
-/// An adapter, then every test and doc test, with and without wgpu.
+/// An adapter, then every test and doc test; those of the façade without wgpu, too.
 pub(crate) fn test(sections: &mut Sections, args: &TestArgs) -> Result<(), Failure> {
     sections.run("graphics adapter", |s| adapter::ensure(s, args.no_install, args.software))?;
     sections.run("tests", |s| s.cargo("test --workspace"))?;
@@ -43,10 +43,12 @@ pub(crate) fn ci(sections: &mut Sections, args: &TestArgs) -> Result<(), Failure
     sections.run("evidence", |s| s.cargo("run --release --bin evidence -- --quick --out target/ci/evidence"))
 }
 
-/// The crates without their default features: tested together, linted one by one, and no wgpu among what they need.
+/// The crates without their default features: all linted with their tests, the façade tested, as on a server (what the others
+/// do on the CPU is the same code with wgpu); then each linted by itself, and no wgpu among what it needs.
 fn crates_apart(sections: &mut Sections) -> Result<(), Failure> {
     let packages: String = WITHOUT_WGPU.iter().map(|name| format!(" -p {name}")).collect();
-    sections.cargo(&format!("test{packages} --no-default-features"))?;
+    sections.cargo("test -p open-water --no-default-features")?;
+    sections.cargo(&format!("clippy --quiet{packages} --no-default-features --all-targets -- -D warnings"))?;
     for name in WITHOUT_WGPU {
         sections.cargo(&format!("clippy --quiet -p {name} --no-default-features -- -D warnings"))?;
         let (tree, _) =
