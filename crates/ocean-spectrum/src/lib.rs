@@ -42,6 +42,7 @@
 //! Not here: interactive waves, bodies, refraction (a wave's length follows from one depth everywhere), the shape of
 //! breaking waves.
 
+mod desc;
 pub mod dispersion;
 mod error;
 mod feed;
@@ -56,11 +57,12 @@ mod sea;
 mod snapshot;
 mod synthesis;
 
+pub use desc::{CascadeDesc, OceanDesc};
 pub use error::{Notice, OceanError};
 pub use feed::{EdgeDesc, EdgeFeed};
 pub use modes::moment::Moment;
 pub use modes::{Amplitudes, CascadeModes};
-pub use ocean::{CascadeDesc, CascadeFields, Ocean, OceanDesc};
+pub use ocean::{CascadeFields, Ocean};
 pub use query::OceanSample;
 pub use query::amplitude::{AmplitudeMap, CascadeFactors};
 pub use query::largest::Queries;

@@ -3,25 +3,25 @@
 //! The hydrodynamics are `floating-body`'s. Here each body is given the water it sees, and what it displaced is handed
 //! to the grid it disturbs. Bodies do not see each other: collisions are the physics engine's.
 
+mod entry;
 mod moments;
 
 use std::sync::Arc;
 
-use floating_body::{
-    Arena, Body, BodyState, Controls, Displacement, Explanation, MooringLine, Radiation, Sampling, TextureKernel,
-    Textures, Wrench,
-};
-use glam::{Quat, Vec2, Vec3};
+use floating_body::{Arena, Body, BodyState, Controls, Explanation, MooringLine, Sampling};
+use glam::{Vec2, Vec3};
 use rayon::prelude::*;
-use wave_grid::{Pattern, PatternKernel, Scheme, Source};
+use wave_grid::Source;
 
 use crate::cpu::body_water::BodyWater;
 use crate::cpu::surface::Composite;
-use crate::grids::{Grid, Grids, Sim};
-use crate::handover::{Homes, Settler};
+use crate::grids::{Grids, Sim};
 use crate::rebase::lifted;
 use crate::store::{BodyId, BodyMotion, BodyStore, GridId, Wants};
 use crate::{OpenWaterError, Reports};
+use entry::Entry;
+pub use entry::Pose;
+pub(crate) use entry::carries;
 #[cfg(feature = "serde")]
 pub(crate) use moments::BodyMoment;
 pub(crate) use moments::{BodiesMoment, Kind};
@@ -30,107 +30,6 @@ pub(crate) use moments::{BodiesMoment, Kind};
 const CHUNK: usize = 16;
 /// Change of position within a tick, on top of the body's own motion, that counts as a teleport, metres.
 const TELEPORT: f32 = 5.0;
-
-/// Where a hull's mesh is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Pose {
-    /// Local position of the hull's own origin (not of the centre of mass), metres.
-    pub position: Vec3,
-    /// Attitude.
-    pub orientation: Quat,
-}
-
-impl Pose {
-    fn at(body: &Body, state: &BodyState) -> Self {
-        let position = state.position - state.orientation * body.desc().center_of_mass;
-        Self { position, orientation: state.orientation }
-    }
-
-    fn of(body: &Body) -> Self {
-        Self::at(body, &body.state())
-    }
-
-    /// The pose a share `alpha` on the way to another.
-    pub(crate) fn between(&self, next: &Self, alpha: f32) -> Self {
-        Self {
-            position: self.position.lerp(next.position, alpha),
-            orientation: self.orientation.slerp(next.orientation, alpha),
-        }
-    }
-}
-
-pub(crate) struct Entry {
-    id: BodyId,
-    /// What it was made from.
-    kind: Arc<Kind>,
-    body: Body,
-    controls: Controls,
-    /// The grid that it makes waves in.
-    homes: Homes,
-    /// Takes part in this tick.
-    active: bool,
-    wants: Wants,
-    /// Of the last tick, for a store that wants it.
-    wrench: Wrench,
-    previous: Option<Pose>,
-    displaced: Vec<Displacement>,
-    /// Its textures, if it radiates into a grid that carries them.
-    pattern: Option<Box<Pattern>>,
-}
-
-/// Cells of a grid that carries the textures of bodies, metres: waves of each length need their own speed.
-pub(crate) fn carries(grid: &Grid) -> Option<f32> {
-    let fits = matches!(grid.sim, Sim::Cpu(_)) && matches!(grid.desc.scheme, Scheme::Dispersive | Scheme::Spectral);
-    fits.then_some(grid.desc.cell_size[0])
-}
-
-fn pattern(textures: &Textures) -> Option<Box<Pattern>> {
-    let kernels = |of: &[TextureKernel]| -> Vec<PatternKernel> {
-        of.iter().map(|k| PatternKernel { offset: k.offset, depth: k.depth, weight: k.weight }).collect()
-    };
-    let layers = [&textures.heave, &textures.roll, &textures.pitch, &textures.hull].map(|of| kernels(of));
-    Pattern::new([&layers[0], &layers[1], &layers[2], &layers[3]], textures.reach).ok().map(Box::new)
-}
-
-impl Entry {
-    fn new(id: BodyId, body: Body, kind: Arc<Kind>) -> Self {
-        Self {
-            id,
-            kind,
-            body,
-            controls: Controls::default(),
-            homes: Homes::default(),
-            active: false,
-            wants: Wants::State,
-            wrench: Wrench::default(),
-            previous: None,
-            displaced: Vec::new(),
-            pattern: None,
-        }
-    }
-
-    /// Has its textures fit the grid that is its home, if that carries any.
-    fn fit(&mut self, grids: &Grids) {
-        if !self.radiates() {
-            return;
-        }
-        let cell = self.homes.now().and_then(|home| carries(grids.get(home).ok()?));
-        if cell.is_some_and(|cell| self.body.fit_textures(cell)) {
-            self.pattern = self.body.textures().and_then(pattern);
-        }
-    }
-
-    /// The waves it makes take its energy away.
-    fn radiates(&self) -> bool {
-        self.body.desc().radiation == Radiation::Grid
-    }
-
-    fn settler(&self, state: BodyState) -> Settler {
-        let Self { id, body, .. } = self;
-        Settler { id: *id, state, reach: body.bounding_radius(), radiation: body.desc().radiation }
-    }
-}
 
 /// What bodies read of the sea.
 #[derive(Debug, Clone, Copy, PartialEq)]

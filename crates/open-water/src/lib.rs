@@ -34,6 +34,7 @@
 mod note;
 
 mod bodies;
+mod body_access;
 mod clock;
 mod cpu;
 mod desc;

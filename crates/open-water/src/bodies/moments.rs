@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use floating_body::{Arena, Body, BodyDesc, BodySnapshot, Controls, Wrench};
 
-use super::{Bodies, Entry, Pose, pattern};
+use super::Bodies;
+use super::entry::{Entry, Pose, pattern};
 use crate::OpenWaterError;
 use crate::handover::Homes;
 use crate::store::{BodyId, Wants};
