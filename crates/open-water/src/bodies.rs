@@ -15,6 +15,8 @@ use wave_grid::Source;
 
 use crate::cpu::body_water::BodyWater;
 use crate::cpu::surface::Composite;
+#[cfg(feature = "gpu")]
+use crate::gpu::hulls::Hull;
 use crate::grids::{Grids, Sim};
 use crate::rebase::lifted;
 use crate::store::{BodyId, BodyMotion, BodyStore, GridId, Wants};
@@ -225,6 +227,12 @@ impl Bodies {
                     for imprint in imprints {
                         sim.add_pattern(pattern, imprint.at, imprint.heading, imprint.amounts);
                     }
+                }
+                #[cfg(feature = "gpu")]
+                if let Sim::Gpu(sim) = &mut grid.sim
+                    && entry.body.immersed_volume() > 0.0
+                {
+                    sim.meet(Hull::of(entry.id, &entry.body, grid.origin));
                 }
                 for d in &entry.displaced {
                     let center = Vec2::new(d.center.x, d.center.y);

@@ -37,8 +37,7 @@ impl Carry {
             // The line's error over the parabola's, of waves of 1.2 s at 60 ticks.
             None => ([1.0 + x, -x, 0.0], [1.0, -1.0, 0.0], 5.0 * x * (x + 1.0)),
         };
-        let t = ((FORGOTTEN - age as f32 * dt) / (FORGOTTEN - BELIEVED)).clamp(0.0, 1.0);
-        let belief = f64::from(t * t * (3.0 - 2.0 * t));
+        let belief = belief(age, dt);
         let stale = [1.0, 0.0, 0.0];
         Self {
             value: std::array::from_fn(|k| (belief * value[k] + (1.0 - belief) * stale[k]) as f32),
@@ -46,6 +45,12 @@ impl Carry {
             growth: growth.min(f64::from(f32::MAX)) as f32,
         }
     }
+}
+
+/// How much is believed of what is carried on over `age` ticks of `dt` seconds, 0 to 1.
+pub(super) fn belief(age: u64, dt: f32) -> f64 {
+    let t = ((FORGOTTEN - age as f32 * dt) / (FORGOTTEN - BELIEVED)).clamp(0.0, 1.0);
+    f64::from(t * t * (3.0 - 2.0 * t))
 }
 
 /// Ticks by which the older height may be older.

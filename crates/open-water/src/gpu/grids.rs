@@ -2,6 +2,8 @@
 //!
 //! Nothing waits: a sample is carried on from the last copy that has arrived, and says how old that is.
 
+mod plan;
+
 use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
@@ -9,14 +11,12 @@ use open_water_shaders::pipeline::{Frame, Readback, Reading};
 use wave_grid::gpu::{GpuGridId, GpuGrids, Stored};
 use wave_grid::{GridSample, Hole, Medium, Source, Window};
 
+use super::hulls::Hull;
 use super::mirror::Mirror;
 use crate::OpenWaterError;
 use crate::grids::{Grids, Sim};
-use crate::plan::{FramePlan, Reason, SkippedWork, Work};
-use crate::planner::Shown;
-use crate::rules;
+use crate::plan::FramePlan;
 use crate::sea::beside;
-use crate::water::OpenWater;
 
 /// Copies under way at most: of four frames in flight, and of the one that is being encoded.
 const SLOTS: usize = 5;
@@ -39,6 +39,8 @@ pub(crate) struct RemoteGrid {
     hole: Hole,
     holes: Vec<Hole>,
     sources: Vec<Source>,
+    /// Those that are in it.
+    hulls: Vec<Hull>,
     ring: Readback<Stamp>,
     /// The tick that was copied last.
     copied: u64,
@@ -81,6 +83,11 @@ impl RemoteGrid {
         self.sources.push(source);
     }
 
+    /// A hull is in it in this tick.
+    pub(crate) fn meet(&mut self, hull: Hull) {
+        self.hulls.push(hull);
+    }
+
     pub(crate) fn hole(&self, gain: f32) -> Hole {
         self.hole.with_gain(gain)
     }
@@ -102,6 +109,7 @@ impl RemoteGrid {
     pub(crate) fn end(&mut self) {
         self.awake = false;
         self.sources.clear();
+        self.hulls.clear();
         self.mirror.still();
     }
 }
@@ -145,6 +153,7 @@ impl RemoteGrids {
             hole: self.grids.hole(id, 1.0),
             holes: Vec::new(),
             sources: Vec::new(),
+            hulls: Vec::new(),
             ring: Readback::new(&self.device, "grid readback", bytes, SLOTS),
             copied: 0,
             mirror: Mirror::new(desc.cells, desc.cell_size, desc.tick),
@@ -221,10 +230,11 @@ impl RemoteGrids {
             remote.awake = !self.grids.is_asleep(remote.id);
             self.take(remote);
             if remote.awake {
-                remote.mirror.follow(tick);
+                remote.mirror.follow(tick, &remote.hulls);
             } else {
                 remote.mirror.still();
             }
+            remote.hulls.clear();
         }
         if any {
             self.grids.tick();
@@ -300,58 +310,6 @@ impl RemoteGrids {
                     remote.copied = self.tick;
                 }
             }
-        }
-    }
-}
-
-impl OpenWater {
-    /// How many ticks old the heights are from which samples of a grid are carried on: 0 for a CPU-homed one, `None` for a
-    /// GPU-homed one of which nothing has come back since its waves began, or that has none (it samples as calm). See
-    /// [`WaterSample::age`](crate::WaterSample::age).
-    ///
-    /// # Errors
-    /// There is no such grid.
-    pub fn grid_age(&self, id: crate::GridId) -> Result<Option<u64>, OpenWaterError> {
-        Ok(match &self.grids.present(id)?.sim {
-            Sim::Cpu(_) => Some(0),
-            Sim::Gpu(remote) => remote.mirror.tick().map(|tick| self.tick.saturating_sub(tick)),
-        })
-    }
-
-    /// GPU-homed grids step and come back whether anybody looks or not: else the water would depend on the view.
-    pub(crate) fn plan_remote(&self, shown: &Shown, plan: &mut FramePlan) {
-        let Some(gpu) = &self.gpu else { return };
-        if gpu.lost {
-            let lost = self.grids.iter().filter(|grid| matches!(grid.sim, Sim::Gpu(_)));
-            lost.for_each(|grid| plan.skip(SkippedWork::Grid(grid.id), Reason::DeviceLost));
-            return;
-        }
-        let pending = gpu.remote.grids.pending_dispatches() as u32;
-        if pending > 0 {
-            plan.run(Work::GridSteps { dispatches: pending });
-            plan.dispatches += pending;
-        }
-        let (mut drawn, mut changed) = (0, pending > 0);
-        for grid in self.grids.iter() {
-            if !matches!(grid.sim, Sim::Gpu(_)) {
-                continue;
-            }
-            if rules::asleep(self.rules, grid) {
-                plan.skip(SkippedWork::Grid(grid.id), Reason::Asleep);
-            } else {
-                drawn += 1;
-                plan.list(grid.id);
-                changed |= !shown.has_grid(self.rules, grid, (plan.tick, plan.alpha));
-            }
-        }
-        if !changed {
-            let unchanged = self.grids.iter().filter(|grid| matches!(grid.sim, Sim::Gpu(_)) && grid.is_awake());
-            unchanged.for_each(|grid| plan.skip(SkippedWork::Grid(grid.id), Reason::Unchanged));
-            drawn = 0;
-        }
-        if drawn > 0 {
-            plan.run(Work::GridDraw { grids: drawn });
-            plan.dispatches += 1;
         }
     }
 }

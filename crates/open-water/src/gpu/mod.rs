@@ -3,11 +3,13 @@
 //! Everything that runs on the GPU is decided by [`FramePlan`](crate::FramePlan) and recorded by `encode.rs`.
 
 mod carry;
+mod copies;
 mod dry;
 mod encode;
 mod fault;
 pub(crate) mod grids;
 mod host;
+pub(crate) mod hulls;
 mod judge;
 pub(crate) mod land;
 mod limits;
