@@ -232,3 +232,29 @@ fn a_body_thrown_out_of_the_water_takes_its_volume_along() {
     }
     assert!(body.immersed_volume() == 0.0 && (volume / -300.0 - 1.0).abs() < 0.02, "{volume}");
 }
+
+#[test]
+fn what_a_led_body_has_told_depends_on_its_place_alone() {
+    let water = Answer(Vec3::ZERO);
+    let mut body = Body::new(barge()).unwrap();
+    body.fit_textures(0.5);
+    let (rest, still) = (body.rest_height(), BodyState::at_rest(Vec3::ZERO));
+    let (mut sums, mut at) = ([0.0f32; 4], Vec::new());
+    // Afloat, in the air, far below, heeled, bottom up; in one leap each, and the way down in small steps.
+    let down = (0..200u8).map(|i| (-0.1 * f32::from(i), 0.0));
+    let poses = [(0.0, 0.0), (6.0, 0.0), (-5.0, 0.0), (0.3, 0.5), (6.0, 0.9), (0.0, 2.5), (0.0, 0.0)];
+    for (heave, roll) in poses.into_iter().cycle().take(69).chain(down).chain([(0.0, 0.0)]) {
+        let orientation = Quat::from_rotation_x(roll);
+        body.set_state(BodyState { position: Vec3::Y * (rest + heave), orientation, ..still });
+        body.step(1e-4, &water, &Controls::default());
+        for imprint in body.imprints().unwrap() {
+            sums.iter_mut().zip(imprint.amounts).for_each(|(sum, amount)| *sum += amount);
+        }
+        let told = sums[0] * 200.0 + sums[3] * 300.0;
+        let held = body.told_volume() - 300.0;
+        assert!((told - held).abs() < 0.5, "{told} of {held} m^3 at {heave} m");
+        at.push((heave, roll, sums));
+    }
+    let home: Vec<[f32; 4]> = at.iter().filter(|(heave, roll, _)| (*heave, *roll) == (0.0, 0.0)).map(|a| a.2).collect();
+    assert!(home.len() > 8 && home.iter().flatten().all(|sum| sum.abs() < 2e-3), "{home:?}");
+}

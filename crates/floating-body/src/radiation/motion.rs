@@ -3,6 +3,9 @@
 //! The motion told is that against the ambient water: a float that rides a swell makes no waves. What the hull displaces
 //! is the volume of its columns, as it is for grids without textures, so that a body that leaves the water takes all of it
 //! along; while it is afloat heave's texture stands for the change.
+//!
+//! What has been told depends on where the body is, not on the way there: a game that leads a body in and out of the water,
+//! in leaps if it likes, raises no more water than the hull holds.
 
 use glam::{Vec2, Vec3};
 
@@ -24,10 +27,13 @@ pub struct Imprint {
 
 /// Moves shorter than this share of the waterplane's radius wait until they have added up, in m per m.
 const NEAR: f32 = 1.0e-3;
-/// So do changes of height below this, m.
+/// So do changes below this of height, in m, and of the share of the volume.
 const QUIET: f32 = 1.0e-6;
-/// Upright enough for the textures: the cosine of the tilt at which they fade, and that at which they are gone.
-const UPRIGHT: (f32, f32) = (0.8, 0.5);
+/// Upright enough for the textures, by the sine of the tilt against the water.
+const UPRIGHT: Fade = Fade { from: 0.6, to: 0.866 };
+/// Share of the volume that is under water where textures begin to fade as the hull rises, and that is dry as it sinks;
+/// half of what it is at rest, if that is less.
+const AFLOAT: f32 = 0.05;
 
 /// Where a body is against the ambient water.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,7 +41,7 @@ const UPRIGHT: (f32, f32) = (0.8, 0.5);
 struct Place {
     at: Vec2,
     heading: f32,
-    /// Heave in m, roll and pitch in radians.
+    /// Heave in m from rest, roll and pitch in radians, of which only so much counts as the textures act.
     modes: Vec3,
     /// Volume over the volume at rest.
     share: f32,
@@ -69,8 +75,11 @@ pub(crate) struct Radiator {
     area_by_volume: f32,
     /// Sums over the points' areas: the areas, their second moments.
     areas: [f32; 3],
-    /// See [`crossing`], at rest.
-    afloat: f32,
+    /// Heave from rest above which and, turned about, below which textures fade, m.
+    rise: Fade,
+    sink: Fade,
+    /// Height of the water over the centre of mass at rest, m.
+    level: f32,
     pub(crate) motion: Motion,
 }
 
@@ -78,10 +87,24 @@ fn area(point: &ForcePoint) -> f32 {
     4.0 * point.half.x * point.half.z
 }
 
-/// How much a hull of which this share of the volume is under water counts as afloat. Asked of the whole hull: where it is
-/// made of layers, the surface may lie between two of them.
-fn crossing(share: f32) -> f32 {
-    (10.0 * share.min(1.0 - share)).clamp(0.0, 1.0)
+/// Something acts up to one amount of a motion and no more from another on.
+#[derive(Clone, Copy, Debug, Default)]
+struct Fade {
+    from: f32,
+    to: f32,
+}
+
+impl Fade {
+    /// How far it has faded at an amount, 0 to 1.
+    fn gone(&self, amount: f32) -> f32 {
+        ((amount - self.from) / (self.to - self.from).max(1.0e-6)).clamp(0.0, 1.0)
+    }
+
+    /// The integral of what is left from 0 to an amount: so much of the motion counts.
+    fn counted(&self, amount: f32) -> f32 {
+        let gone = self.gone(amount);
+        amount.min(self.from) + (self.to - self.from).max(1.0e-6) * gone * (1.0 - 0.5 * gone)
+    }
 }
 
 impl Radiator {
@@ -92,7 +115,9 @@ impl Radiator {
             radius: (plane / std::f32::consts::PI).sqrt(),
             area_by_volume: plane / volume,
             areas: [0.0; 3],
-            afloat: 0.0,
+            rise: Fade::default(),
+            sink: Fade::default(),
+            level: 0.0,
             motion: Motion::default(),
         }
     }
@@ -100,16 +125,53 @@ impl Radiator {
     /// Sums over the points; at rest the water is at `level` over the centre of mass.
     pub(crate) fn weigh(&mut self, points: &[ForcePoint], level: f32) {
         self.areas = [0.0; 3];
-        let (mut wet, mut whole) = (0.0, 0.0);
         for point in points {
             let from = Vec2::new(point.position.x, point.position.z) - self.center;
             self.areas[0] += area(point);
             self.areas[1] += area(point) * from.x * from.x;
             self.areas[2] += area(point) * from.y * from.y;
-            wet += point.volume * point.immersion(level - point.position.y, Vec3::Y).share;
-            whole += point.volume;
         }
-        self.afloat = crossing(wet / whole);
+        let whole: f32 = points.iter().map(|point| point.volume).sum();
+        let wet = |heave: f32| {
+            let under = |point: &ForcePoint| point.immersion(level - heave - point.position.y, Vec3::Y).share;
+            points.iter().map(|point| point.volume * under(point)).sum::<f32>() / whole
+        };
+        let (mut low, mut high) = (0.0f32, 0.0f32);
+        for point in points {
+            low = low.min(level - point.position.y - point.half.y);
+            high = high.max(level - point.position.y + point.half.y);
+        }
+        let until = |end: f32, holds: &dyn Fn(f32) -> bool| {
+            let (mut near, mut far) = (0.0, end);
+            for _ in 0..24 {
+                let middle = 0.5 * (near + far);
+                *(if holds(middle) { &mut near } else { &mut far }) = middle;
+            }
+            near.abs()
+        };
+        let rest = wet(0.0);
+        let (dry, full) = (AFLOAT.min(0.5 * rest), AFLOAT.min(0.5 * (1.0 - rest)));
+        self.rise = Fade { from: until(high, &|heave| wet(heave) > dry), to: high };
+        self.sink = Fade { from: until(low, &|heave| 1.0 - wet(heave) > full), to: -low };
+        self.level = level;
+    }
+
+    /// What counts of a heave from rest in m and of a roll and pitch, and how much of the textures acts, 0 to 1.
+    fn counted(&self, heave: f32, turned: Vec2, upright: bool) -> (Vec3, f32) {
+        let fade = if heave > 0.0 { self.rise } else { self.sink };
+        let afloat = 1.0 - fade.gone(heave.abs());
+        let tilt = turned.length();
+        let (left, part) = if !upright {
+            // Bottom up they do not act, and what was told has gone back by the time the hull's sides are level again.
+            (0.0, UPRIGHT.counted(1.0))
+        } else if tilt > UPRIGHT.from {
+            (1.0 - UPRIGHT.gone(tilt), UPRIGHT.counted(tilt) / tilt)
+        } else {
+            (1.0, 1.0)
+        };
+        let heave = heave.signum() * fade.counted(heave.abs()) * left;
+        let turned = turned * (part * afloat);
+        (Vec3::new(heave, turned.x, turned.y), left * afloat)
     }
 
     /// Where the textures lie: the centre of mass and the heading of the hull's x axis.
@@ -130,28 +192,21 @@ impl Radiator {
     ) {
         let r = pose.rotation;
         let (at, heading) = Self::spot(pose);
-        let (mut sums, mut wet, mut all) = (Vec3::ZERO, 0.0, 0.0);
+        let mut sums = Vec3::ZERO;
         let middle = pose.position + r * Vec3::new(self.center.x, 0.0, self.center.y);
-        let height_at = |point: &ForcePoint, water: &LocalWater| {
-            let p = pose.position + r * point.position;
-            let here = Vec2::new(p.x, p.z);
-            (water.ambient(here) + water.rise() * age, p.y)
-        };
         for (point, water) in points.iter().zip(waters) {
-            let (height, y) = height_at(point, water);
+            let p = pose.position + r * point.position;
+            let height = water.ambient(Vec2::new(p.x, p.z)) + water.rise() * age;
             let from = Vec2::new(point.position.x, point.position.z) - self.center;
             let over = height - middle.y;
             sums += Vec3::new(over, -from.y * over, from.x * over) * area(point);
-            let share = point.immersion(height - y, r.transpose() * Vec3::Y).share;
-            wet += point.volume * share;
-            all += point.volume;
         }
         let [whole, along, across] = self.areas;
         let per = |sum: f32, by: f32| if by > 0.0 { sum / by } else { 0.0 };
         let water = Vec3::new(per(sums.x, whole), per(sums.y, across), per(sums.z, along));
-        let modes = Vec3::new(0.0, -r.z_axis.y, r.x_axis.y) - water;
-        let upright = ((r.y_axis.y - UPRIGHT.1) / (UPRIGHT.0 - UPRIGHT.1)).clamp(0.0, 1.0);
-        self.motion.gate = upright * per(2.0 * crossing(wet / all), self.afloat).min(1.0);
+        let turned = Vec2::new(-r.z_axis.y - water.y, r.x_axis.y - water.z);
+        let (modes, gate) = self.counted(self.level - water.x, turned, r.y_axis.y > 0.0);
+        self.motion.gate = gate;
         let now = Place { at, heading, modes, share: volume_share };
         self.motion.before = if restart { now } else { self.motion.told };
         if restart {
@@ -165,10 +220,11 @@ impl Radiator {
             (self.motion.told.at, self.motion.told.heading) = (at, heading);
         }
         let heights = change.abs() * Vec3::new(1.0, self.radius, self.radius);
-        if heights.max_element() >= QUIET {
+        // Under water what the surface knows of the hull goes on changing when nothing else does.
+        if heights.max_element() >= QUIET || (volume_share - self.motion.told.share).abs() >= QUIET {
             self.motion.told.modes = modes;
             self.motion.told.share = volume_share;
-            self.motion.change = change * self.motion.gate;
+            self.motion.change = change;
         } else {
             self.motion.change = Vec3::ZERO;
         }
