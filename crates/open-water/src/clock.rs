@@ -118,6 +118,10 @@ mod tests {
             let ticks: usize = (0..frames).map(|_| clock.advance(1.0 / fps).count()).sum();
             assert!((599..=600).contains(&ticks), "{fps} fps: {ticks} ticks");
         }
+        // A frame of whole ticks has all of them, whichever way its length was rounded.
+        for count in 1..=8u16 {
+            assert_eq!(Clock::new(DT, 8).advance(f32::from(count) / 60.0).len(), usize::from(count));
+        }
     }
 
     #[test]

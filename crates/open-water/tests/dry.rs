@@ -38,6 +38,15 @@ fn a_point_is_dry_in_the_hulls_own_frame() {
         assert_eq!(water.is_dry(place(p)), dry, "{p}");
     }
     assert!(!water.is_dry(Vec3::NAN) && !water.is_dry(Vec3::INFINITY));
+    // Where it is after the last tick, not before.
+    let (mut water, mut store, body) = floating(true);
+    store.insert(body, BodyState { velocity: Vec3::Y * 60.0, ..BodyState::at_rest(Vec3::Y * 10.0) });
+    for _ in 0..2 {
+        let tick = water.advance(1.0 / 60.0).next().unwrap();
+        water.tick(tick, &mut store).unwrap();
+    }
+    let now = store.get(body).unwrap().position;
+    assert!(now.y > 11.9 && water.is_dry(now) && !water.is_dry(now - Vec3::Y), "{now}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The frame rate decides what is drawn when, and nothing of what happens.
 
-use glam::{Vec2, Vec3};
+use glam::{Quat, Vec2, Vec3};
 use ocean_spectrum::{Ocean, OceanSample};
 use open_water::{
     BodyDesc, BodyId, BodyStates, Border, CascadeDesc, Controls, Follow, GridDesc, GridId, Hull, OpenWater,
@@ -112,6 +112,14 @@ fn curve(of: &[Frame], body: usize, time: f64) -> Option<Vec3> {
     Some(b * (2.0 * t3 - 3.0 * t2 + 1.0) + m * (t3 - 2.0 * t2 + t) + c * (3.0 * t2 - 2.0 * t3) + n * (t3 - t2))
 }
 
+/// Attitude between those of two ticks: the sum of both, weighed.
+fn attitude(of: &[Frame], body: usize, time: f64) -> Quat {
+    let at = (time - of[0].time) / f64::from(DT);
+    let (i, t) = (at.floor() as usize, at.fract() as f32);
+    let [a, b] = [i, i + 1].map(|k| of[k].poses[body].orientation);
+    (a * (1.0 - t) + b * t).normalize()
+}
+
 /// What other frame rates show.
 fn rates() -> Vec<(String, Vec<Frame>)> {
     let steady = [15.0, 30.0, 144.0, 240.0].map(|fps| (format!("{fps} fps"), Scene::run(steady(fps))));
@@ -127,14 +135,16 @@ fn all_frame_rates_draw_the_same_way_and_the_same_sea() {
     for (name, frames) in rates() {
         for body in 0..3 {
             let mean = sixty.iter().map(|f| f.poses[body].position).sum::<Vec3>() / sixty.len() as f32;
-            let (mut off, mut way, mut count) = (0.0, 0.0, 0);
+            let (mut off, mut way, mut turned, mut count) = (0.0, 0.0, 0.0f32, 0);
             for frame in &frames {
                 let Some(truth) = curve(&sixty, body, frame.time) else { continue };
                 off += frame.poses[body].position.distance_squared(truth);
                 way += truth.distance_squared(mean);
+                turned = turned.max((attitude(&sixty, body, frame.time) - frame.poses[body].orientation).length());
                 count += 1;
             }
             let share = (off / way).sqrt();
+            assert!(turned < 1e-4, "{name}, body {body}: {turned} half radians off");
             assert!(count > 100 && share < 1e-3, "{name}, body {body}: {share} of the way in {count} frames");
         }
         for at in 0..2 {

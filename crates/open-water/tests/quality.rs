@@ -2,8 +2,8 @@
 
 use glam::{DVec2, Vec2};
 use open_water::{
-    BodyStates, CascadeDesc, DepthMap, Follow, GridDesc, Land, OpenWater, OpenWaterDesc, OpenWaterError, Preset,
-    Scheme, SeaState, WaterSample,
+    BodyStates, CascadeDesc, DepthMap, Follow, GridDesc, GridId, Land, OpenWater, OpenWaterDesc, OpenWaterError,
+    Preset, Scheme, SeaState, WaterSample,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -53,9 +53,12 @@ fn cascades_change_without_a_pop_and_end_as_if_they_had_always_been() {
             run(water, 60, &[]);
         }
         changing.set_cascades(desc(others).cascades, 2.0).unwrap();
-        let step = run(&mut changing, 160, &at);
+        // It begins half a second after the call.
+        let early = [&mut before, &mut changing].map(|water| run(water, 30, &at));
+        assert_eq!(heights(&before, &at), heights(&changing, &at), "{others:?}");
+        let step = early[1].max(run(&mut changing, 130, &at));
         // What the seas do by themselves in the same time; a fade of 2 s adds up to .0125 of their difference a tick.
-        let usual = run(&mut before, 160, &at).max(run(&mut after, 160, &at));
+        let usual = early[0].max(run(&mut before, 130, &at)).max(run(&mut after, 160, &at));
         assert!(step < 1.6 * usual, "{others:?}: {step} against {usual}");
         assert_eq!(heights(&changing, &at), heights(&after, &at), "{others:?}");
         assert_eq!(changing.desc().cascades, desc(others).cascades);
@@ -119,16 +122,16 @@ fn two_runs_are_equal_however_fast_the_new_sea_is_made() {
 
 #[test]
 fn the_lands_maps_keep_up_with_the_cascades() {
-    let land = || {
-        let elevation = |i: usize| (-9.0 + (i % 64) as f32 * 0.16).min(3.0);
+    let land = |deepest: f32| {
+        let elevation = |i: usize| (-deepest + (i % 64) as f32 * 0.16).min(3.0);
         let bed = DepthMap::new(DVec2::splat(-40.0), 4.0, [64; 2], (0..64 * 64).map(elevation).collect());
         Some(Land::new(bed.unwrap()))
     };
     let other = &[(128, 300.0), (128, 48.0)];
     let (mut changing, mut after) =
         (OpenWater::headless(desc(FEW)).unwrap(), OpenWater::headless(desc(other)).unwrap());
-    changing.set_land(land()).unwrap();
-    after.set_land(land()).unwrap();
+    changing.set_land(land(9.0)).unwrap();
+    after.set_land(land(9.0)).unwrap();
     let shore = points(Vec2::new(120.0, 20.0));
     let usual = run(&mut changing, 60, &shore).max(run(&mut after, 60, &shore));
     changing.set_cascades(desc(other).cascades, 2.0).unwrap();
@@ -139,12 +142,19 @@ fn the_lands_maps_keep_up_with_the_cascades() {
     // New land on the way.
     changing.set_cascades(desc(FEW).cascades, 2.0).unwrap();
     run(&mut changing, 60, &shore);
-    changing.set_land(land()).unwrap();
+    changing.set_land(land(6.0)).unwrap();
     run(&mut changing, 100, &shore);
     let mut back = OpenWater::headless(desc(FEW)).unwrap();
-    back.set_land(land()).unwrap();
+    back.set_land(land(6.0)).unwrap();
     run(&mut back, 380, &[]);
     assert_eq!(heights(&changing, &shore), heights(&back, &shore));
+    // And before the change begins, for which maps were being made.
+    changing.set_cascades(desc(other).cascades, 1.0).unwrap();
+    run(&mut changing, 10, &[]);
+    changing.set_land(land(9.0)).unwrap();
+    run(&mut changing, 100, &[]);
+    run(&mut after, 270, &[]);
+    assert_eq!(heights(&changing, &shore), heights(&after, &shore));
 }
 
 #[test]
@@ -167,8 +177,8 @@ fn changes_that_cannot_be_change_nothing() {
     OpenWater::headless(calm).unwrap().set_quality(Preset::High).unwrap();
 }
 
-#[test]
-fn a_grid_changes_its_cells_without_a_pop() {
+/// A cube dropped into a grid on calm water.
+fn splash() -> (OpenWater, BodyStates, GridId) {
     let mut calm = desc(FEW);
     calm.sea.partitions.clear();
     let mut water = OpenWater::headless(calm).unwrap();
@@ -186,6 +196,13 @@ fn a_grid_changes_its_cells_without_a_pop() {
     let body = water.add_body(desc).unwrap();
     let mut store = BodyStates::default();
     store.insert(body, open_water::BodyState::at_rest(glam::Vec3::new(0.0, 1.5, 0.0)));
+    (water, store, id)
+}
+
+#[test]
+fn a_grid_changes_its_cells_without_a_pop() {
+    let (mut water, mut store, id) = splash();
+    let (mut same, mut other, _) = splash();
     let at: Vec<Vec2> = (0..64).map(|i| Vec2::from_angle(i as f32) * (4.0 + 0.2 * i as f32)).collect();
     let mut last = heights(&water, &at);
     let mut worst = [0.0f32; 2];
@@ -203,6 +220,16 @@ fn a_grid_changes_its_cells_without_a_pop() {
             worst[usize::from((90..160).contains(&i))] = worst[usize::from((90..160).contains(&i))].max(step);
         }
         last = now;
+        for tick in same.advance(DT) {
+            same.tick(tick, &mut other).unwrap();
+        }
+        // Half a second after the old one has faded, the new one holds its waves.
+        if i == 180 {
+            let square = |heights: &mut dyn Iterator<Item = f32>| heights.map(|height| height * height).sum::<f32>();
+            let usual = heights(&same, &at);
+            let off = square(&mut last.iter().zip(&usual).map(|(a, b)| a - b)) / square(&mut usual.iter().copied());
+            assert!(off < 0.05, "{off} of the energy");
+        }
     }
     let [usual, changing] = worst;
     assert!(usual > 1e-3 && changing < 1.2 * usual, "{changing} against {usual}");

@@ -4,7 +4,7 @@ use glam::{DVec2, Quat, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Border, CascadeDesc, Contact, Controls, DepthMap, FleetDesc, FleetId,
     Follow, GridDesc, GridId, Hull, Land, Look, Mooring, MooringId, MooringLine, OpenWater, OpenWaterDesc,
-    OpenWaterError, PieceId, Pose, Preset, Rain, Scheme, WakesDesc, WaterSample,
+    OpenWaterError, PieceId, Pose, Preset, Radiation, Rain, Scheme, WakesDesc, WaterSample,
 };
 
 const DT: f32 = 1.0 / 60.0;
@@ -40,7 +40,10 @@ impl Scene {
         let hull = Hull::cuboid(Vec3::new(6.0, 1.2, 2.2)).unwrap();
         let mut store = BodyStates::default();
         let [boat, moored] = [0.0, 60.0].map(|x| {
-            let id = water.add_body(BodyDesc { memory: x > 0.0, ..BodyDesc::boat(&hull, 4_000.0, 10.0) }).unwrap();
+            // The moored one radiates into the grid that it lies in.
+            let radiation = if x > 0.0 { Radiation::Grid } else { Radiation::Coefficients };
+            let desc = BodyDesc { memory: x > 0.0, radiation, ..BodyDesc::boat(&hull, 4_000.0, 10.0) };
+            let id = water.add_body(desc).unwrap();
             let state = water.body(id).unwrap().state();
             store.insert(id, BodyState { position: state.position + Vec3::X * x, ..state });
             id

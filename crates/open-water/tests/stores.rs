@@ -112,14 +112,21 @@ fn slices_give_the_same_motion_whatever_order_they_are_in() {
     let positions: Vec<_> = ids.iter().map(|id| bits(&found[&Some(*id)])).collect();
     assert_eq!(positions, reference(5));
     assert_eq!(found[&None], at(-50.0));
+    // What is in the slices no more is not found by where it was.
+    let (here, states) = ([ids[1], ids[0], ids[1]].map(Some), &mut states[..2]);
+    let store = slices.store(&here, states);
+    assert!(ids[2..].iter().all(|id| store.read(*id).is_none()));
+    // The longer one's rest counts for nothing.
+    assert_eq!(store.read(ids[1]), Some(states[0]));
 }
 
 #[test]
 fn components_of_entities_give_the_same_motion() {
-    let (mut water, ids) = crates(5);
+    // The first of them goes on the way: others take its place in the lists.
+    let (mut water, mut ids) = crates(6);
     let mut world = Ecs::default();
-    let odd = water.add_body(crate_desc()).unwrap();
-    let odd = world.spawn(odd, at(-20.0));
+    let gone = ids.remove(0);
+    let odd = world.spawn(gone, at(-20.0));
     for (i, id) in ids.iter().enumerate() {
         world.spawn(*id, at(3.0 * i as f32));
     }
@@ -127,7 +134,11 @@ fn components_of_entities_give_the_same_motion() {
         tick(&mut water, &mut world);
         if step == 40 {
             world.despawn(odd);
+            water.remove_body(gone).unwrap();
         }
+    }
+    for id in &ids {
+        assert_eq!(water.body(*id).unwrap().state(), world.states[world.row(*id).unwrap()]);
     }
     let positions: Vec<_> = ids.iter().map(|id| bits(&world.states[world.row(*id).unwrap()])).collect();
     assert_eq!(positions, reference(5));

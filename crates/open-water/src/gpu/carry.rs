@@ -106,6 +106,18 @@ mod tests {
     }
 
     #[test]
+    fn errors_grow_with_age_as_told() {
+        for older in [Some(2), Some(5), None] {
+            let [(young, found), (old, then)] = [3, 9].map(|age| {
+                let stale = age as f64;
+                (Carry::new(age, older, DT).growth, error(2.5, age, older) * stale)
+            });
+            let (told, found) = (f64::from(old / young), then / found);
+            assert!((told / found - 1.0).abs() < 0.1, "{older:?}: {told} told, {found} found");
+        }
+    }
+
+    #[test]
     fn what_is_much_too_old_stays_as_it_is() {
         for age in [36, 100, u64::MAX / 2, u64::MAX] {
             let carry = Carry::new(age, Some(2), DT);

@@ -156,6 +156,20 @@ mod tests {
         assert_ne!(one.finish(), whole);
     }
 
+    #[test]
+    fn where_a_cells_height_stands_is_in_the_hash() {
+        let hash = |x: f32| {
+            let mut water = OpenWater::headless(Default::default()).unwrap();
+            let id = water.add_grid(crate::GridDesc { cell_size: [0.5; 2], ..Default::default() }).unwrap();
+            let (center, radius) = (glam::Vec2::new(x, 3.25), 0.6);
+            // Of the same tiles, by so much.
+            water.grids.get_mut(id).unwrap().add(wave_grid::Source::Displacement { center, radius, volume: 0.1 });
+            water.hash()
+        };
+        assert_eq!(hash(3.25), hash(3.25));
+        assert_ne!(hash(3.25), hash(3.75));
+    }
+
     /// By a program of its own.
     const KNOWN: u64 = 0xC7C4_CC99_86C6_1853;
 }

@@ -1,6 +1,7 @@
 //! Recordings run again.
 
 use crate::scene::water;
+use crate::shore::{bay, land};
 use open_water::{BodyStates, OpenWater, OpenWaterDesc, Replay, ReplayError};
 
 /// A recording of so many ticks of the random game, and the hash at its end.
@@ -39,6 +40,24 @@ fn a_recording_replays_to_the_same_hash() {
     }
     assert_eq!((ticks, replay.water().hash()), (200, hash));
     assert_eq!(replay.into_water().last_tick(), 30 + 200 - 8);
+}
+
+#[test]
+fn land_that_comes_and_goes_is_replayed() {
+    let mut water = bay(None);
+    water.start_recording();
+    let mut file = Vec::new();
+    for (until, land) in [(3, Some(land())), (6, None), (9, Some(land())), (12, None)] {
+        for tick in water.ticks_until(until) {
+            water.tick(tick, &mut BodyStates::default()).unwrap();
+        }
+        water.write_recording(&mut file).unwrap();
+        water.set_land(land).unwrap();
+    }
+    water.stop_recording(&mut file).unwrap();
+    let mut replay = Replay::new(&file[..]).unwrap();
+    while replay.tick().unwrap() {}
+    assert_eq!(replay.water().hash(), water.hash());
 }
 
 #[test]

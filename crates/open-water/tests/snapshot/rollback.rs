@@ -1,7 +1,8 @@
 //! Back to a moment and on again.
 
-use crate::scene::{Game, water};
-use open_water::OpenWater;
+use crate::scene::{Game, boat, small, water};
+use glam::Vec3;
+use open_water::{BodyState, BodyStates, Controls, Follow, GridDesc, Hull, OpenWater, Preset, WaterSnapshot};
 
 /// Hashes of the next `ticks`.
 pub(crate) fn hashes(water: &mut OpenWater, game: &mut Game, ticks: usize) -> Vec<u64> {
@@ -64,4 +65,57 @@ fn ticks_that_were_handed_out_are_void_after_a_restore() {
         water.tick(tick, &mut game.bodies).unwrap();
     }
     assert_eq!(water.advance(1.0 / 60.0).map(|tick| tick.index).collect::<Vec<_>>(), [3]);
+    water.restore(&snapshot).unwrap();
+    assert_eq!(water.advance(1.0 / 60.0).map(|tick| tick.index).collect::<Vec<_>>(), [1]);
+}
+
+#[test]
+fn grids_that_take_over_from_others_come_back() {
+    let mut desc = small(Preset::Low.water());
+    desc.sea.partitions.clear();
+    let mut water = OpenWater::headless(desc).unwrap();
+    let id = water.add_body(boat()).unwrap();
+    water.set_controls(id, Controls { throttle: 1.0, ..Controls::default() }).unwrap();
+    let grid = GridDesc { cells: [96; 2], follow: Follow::Body(id), ..Preset::Low.grid() };
+    let grid = water.add_grid(grid).unwrap();
+    let mut store = BodyStates::default();
+    store.insert(id, BodyState { velocity: Vec3::X * 6.0, ..water.body(id).unwrap().state() });
+    let run = |water: &mut OpenWater, store: &mut BodyStates, ticks: u64| {
+        let until = water.last_tick() + ticks;
+        let ticks = water.ticks_until(until);
+        let tick = |tick| {
+            water.tick(tick, store).unwrap();
+            water.hash()
+        };
+        ticks.map(tick).collect::<Vec<_>>()
+    };
+    run(&mut water, &mut store, 60);
+    water.set_grid_cells(grid, [64; 2], [0.75; 2]).unwrap();
+    run(&mut water, &mut store, 20);
+    let (snapshot, saved) = (water.snapshot(), store.clone());
+    let first = run(&mut water, &mut store, 60);
+    for from in [WaterSnapshot::from_bytes(&snapshot.to_bytes()).unwrap(), snapshot] {
+        water.restore(&from).unwrap();
+        store = saved.clone();
+        assert_eq!(run(&mut water, &mut store, 60), first);
+    }
+}
+
+#[test]
+fn dry_hulls_come_back_and_those_from_bytes_stay() {
+    let (mut water, mut game) = water();
+    let (dry, body) = (Hull::sphere(0.6).unwrap().dry(0.0, 0.0).unwrap(), game.ids[2]);
+    game.tick(&mut water);
+    water.set_dry(body, Some(dry.clone())).unwrap();
+    let snapshot = water.snapshot();
+    let inside = |water: &OpenWater| water.is_dry(water.body(body).unwrap().state().position);
+    water.set_dry(body, None).unwrap();
+    assert!(!inside(&water));
+    let bytes = WaterSnapshot::from_bytes(&snapshot.to_bytes()).unwrap();
+    water.restore(&bytes).unwrap();
+    assert!(!inside(&water));
+    water.restore(&snapshot).unwrap();
+    assert!(inside(&water));
+    water.restore(&bytes).unwrap();
+    assert!(inside(&water));
 }

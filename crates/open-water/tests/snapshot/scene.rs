@@ -3,7 +3,8 @@
 use glam::{DVec2, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Border, Controls, Engine, FleetDesc, FleetId, Follow, GridDesc, GridId,
-    Hull, Look, Mooring, MooringLine, OpenWater, OpenWaterDesc, Preset, Quality, Radiation, SeaState, WakesDesc,
+    Hull, Look, Mooring, MooringId, MooringLine, OpenWater, OpenWaterDesc, Preset, Quality, Radiation, SeaState,
+    WakesDesc,
 };
 
 /// A game: what the host keeps itself.
@@ -11,8 +12,12 @@ use open_water::{
 pub(crate) struct Game {
     pub(crate) bodies: BodyStates,
     pub(crate) ids: Vec<BodyId>,
-    pub(crate) grid: GridId,
+    /// Follows a point, alone.
+    pub(crate) lone: GridId,
     pub(crate) fleet: FleetId,
+    /// What comes and goes.
+    line: Option<MooringId>,
+    crates: Option<FleetId>,
     dice: u64,
 }
 
@@ -71,15 +76,22 @@ pub(crate) fn water() -> (OpenWater, Game) {
         ..Preset::Low.grid()
     };
     let _ = water.add_grid(tile).unwrap();
-    let line = MooringLine::anchored(Vec3::ZERO, Vec3::new(20.0, -3.0, 3.0), 4.0, 400.0, 50.0);
-    water.add_mooring(Mooring { body: ids[3], line }).unwrap();
-    let fleet =
-        water.add_fleet(FleetDesc::new(BodyDesc::from_hull(&Hull::cuboid(Vec3::splat(0.4)).unwrap(), 20.0))).unwrap();
+    let lone = water.add_grid(GridDesc { cells: [64; 2], follow: Follow::Point, ..Preset::Low.grid() }).unwrap();
+    water.add_mooring(anchored(ids[3])).unwrap();
+    let fleet = water.add_fleet(crates(Radiation::Coefficients)).unwrap();
     for i in 0..20 {
         let place = Vec3::new(3.0 * i as f32 - 30.0, 0.1, -8.0);
         water.fleet_mut(fleet).unwrap().add(BodyState::at_rest(place)).unwrap();
     }
-    (water, Game { bodies, ids, grid, fleet, dice: 3 })
+    (water, Game { bodies, ids, lone, fleet, line: None, crates: None, dice: 3 })
+}
+
+fn anchored(body: BodyId) -> Mooring {
+    Mooring { body, line: MooringLine::anchored(Vec3::ZERO, Vec3::new(20.0, -3.0, 3.0), 4.0, 400.0, 50.0) }
+}
+
+fn crates(radiation: Radiation) -> FleetDesc {
+    FleetDesc::new(BodyDesc { radiation, ..BodyDesc::from_hull(&Hull::cuboid(Vec3::splat(0.4)).unwrap(), 20.0) })
 }
 
 fn ball() -> Hull {
@@ -117,7 +129,10 @@ impl Game {
                 let sea = SeaState::wind(5.0 + self.roll(8) as f32, 50e3, 0.3);
                 water.change_sea(sea, 0.3 + self.roll(3) as f32).unwrap();
             }
-            4 => self.grid = water.set_grid_cells(self.grid, [80, 96], [0.5; 2]).unwrap_or(self.grid),
+            4 => {
+                let side = 48 + 16 * self.roll(3) as u32;
+                self.lone = water.set_grid_cells(self.lone, [64, side], [0.5; 2]).unwrap();
+            }
             5 => {
                 let eye = Vec3::new(self.roll(50) as f32, 4.0, 0.0);
                 water.look(Look { eye, direction: Vec3::X, fov_y: 0.8, aspect: 1.6 });
@@ -143,7 +158,7 @@ impl Game {
             10 => {
                 let state = self.bodies.get_mut(self.ids[1]).unwrap();
                 state.position.x += 0.5;
-                state.velocity.y = 2.0;
+                state.velocity.y = 6.0;
             }
             11 => {
                 let offset = DVec2::new(self.roll(9) as f64, 4.0);
@@ -158,6 +173,23 @@ impl Game {
                 water.teleport(self.ids[1], state).unwrap();
                 self.bodies.insert(self.ids[1], state);
             }
+            13 => match self.line.take() {
+                Some(line) => water.remove_mooring(line).unwrap(),
+                None => self.line = Some(water.add_mooring(anchored(self.ids[2])).unwrap()),
+            },
+            14 => match self.crates.take() {
+                Some(fleet) => water.remove_fleet(fleet).unwrap(),
+                None => {
+                    // Its pieces make waves. Both fleets change in one tick.
+                    let fleet = water.add_fleet(crates(Radiation::Grid)).unwrap();
+                    for fleet in [fleet, self.fleet] {
+                        let place = Vec3::new(self.roll(20) as f32, 0.7, 2.0);
+                        water.fleet_mut(fleet).unwrap().add(BodyState::at_rest(place)).unwrap();
+                    }
+                    self.crates = Some(fleet);
+                }
+            },
+            15 => water.set_follow_point(self.lone, DVec2::new(self.roll(30) as f64, 3.0)).unwrap(),
             _ => {}
         }
         let next = water.last_tick() + 1;
