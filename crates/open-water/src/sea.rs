@@ -88,7 +88,8 @@ impl OpenWater {
 
     /// Gives the sea other cascades over `seconds`, from half a second after the call on. Those whose tile and neighbours
     /// stay keep their waves, and only those come or go that the larger arrays alone hold; other tiles bring other waves,
-    /// which fade in as the old ones fade out. On the way the sea costs as much as both. Heights stay continuous.
+    /// which fade in as the old ones fade out. On the way the sea costs as much as both. Heights stay continuous. Where the
+    /// longest cascade then has waves of less than six cells of a fed grid, no sea comes into that grid.
     ///
     /// # Errors
     /// A cascade or `seconds` is out of its range, or the cascades are more than 8 together with those of now that are

@@ -131,14 +131,16 @@ impl OpenWater {
         bake(terrain, settled.as_ref(), &carriers)
     }
 
-    /// Prepares the edges of fed grids for the sea's modes.
+    /// Prepares the edges of fed grids for the sea's modes. The sea may have become one of which a grid can carry nothing:
+    /// then all of it stays ambient there.
     pub(crate) fn feed_grids(&mut self, baked: &Baked) -> Result<(), OpenWaterError> {
         let (Some(terrain), Some(ocean)) = (&self.shore.terrain, &self.ocean) else { return Ok(()) };
         let fed = self.grids.iter().filter_map(|grid| grid.fed()).map(|grid| self.carrier(grid));
-        let feedings: Vec<_> =
-            fed.map(|c| Feeding::new(c.grid, ocean, c.cascades, terrain, baked)).collect::<Result<_, _>>()?;
+        let feeding =
+            |c: Carrier| (c.cascades > 0).then(|| Feeding::new(c.grid, ocean, c.cascades, terrain, baked)).transpose();
+        let feedings: Vec<_> = fed.map(feeding).collect::<Result<_, _>>()?;
         for (grid, feeding) in self.grids.iter_mut().filter(|grid| grid.fed().is_some()).zip(feedings) {
-            grid.feeding = Some(feeding);
+            grid.feeding = feeding;
         }
         self.shore.fed_revision = self.ocean.as_ref().map_or(0, Ocean::revision);
         Ok(())

@@ -166,3 +166,24 @@ fn bad_changes_are_refused_and_change_nothing() {
     let (_, rms) = run(&mut water, 2.0, &points(Vec2::splat(-90.0), Vec2::splat(90.0)));
     assert!(rms < 0.2, "{rms}");
 }
+
+#[test]
+fn a_fed_grid_that_can_carry_nothing_of_the_sea_leaves_all_of_it_ambient() {
+    let (mut water, grid) = harbour(strong());
+    // In front of the breakwater, within the grid.
+    let at = points(Vec2::new(60.0, 230.0), Vec2::new(120.0, 280.0));
+    let highest = |water: &OpenWater| {
+        water.grid(grid).unwrap().unwrap().heights().iter().fold(0.0f32, |most, height| height.abs().max(most))
+    };
+    let (_, before) = run(&mut water, 40.0, &at);
+    assert!(highest(&water) > 0.3);
+    let tiles = |others: f32| vec![CascadeDesc::new(128, 400.0), CascadeDesc::new(32, others)];
+    water.set_cascades(tiles(20.0), 1.0).unwrap();
+    run(&mut water, 80.0, &at);
+    let (_, after) = run(&mut water, 20.0, &at);
+    assert!(highest(&water) < 0.05, "{} m", highest(&water));
+    assert!(after > 0.5 * before, "{after} m, {before} m");
+    water.set_cascades(tiles(75.0), 1.0).unwrap();
+    run(&mut water, 40.0, &at);
+    assert!(highest(&water) > 0.3);
+}
