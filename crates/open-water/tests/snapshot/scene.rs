@@ -4,7 +4,7 @@ use glam::{DVec2, Vec2, Vec3};
 use open_water::{
     BodyDesc, BodyId, BodyState, BodyStates, Border, Controls, Engine, FleetDesc, FleetId, Follow, GridDesc, GridId,
     Hull, Look, Mooring, MooringId, MooringLine, OpenWater, OpenWaterDesc, Preset, Quality, Radiation, SeaState,
-    WakesDesc,
+    Slamming, WakesDesc,
 };
 
 /// A game: what the host keeps itself.
@@ -38,7 +38,9 @@ pub(crate) fn boat() -> BodyDesc {
         max_angle: 0.4,
         rudder_area: 0.1,
     };
-    BodyDesc { engine: Some(engine), memory: true, quality: Quality::Near(40.0), ..BodyDesc::from_hull(&hull, 2500.0) }
+    let slamming = Some(Slamming { deadrise: 0.3 });
+    let (engine, quality) = (Some(engine), Quality::Near(40.0));
+    BodyDesc { engine, slamming, memory: true, quality, ..BodyDesc::from_hull(&hull, 2500.0) }
 }
 
 pub(crate) fn water() -> (OpenWater, Game) {
