@@ -282,7 +282,7 @@ fn what_is_no_number_is_ignored_where_there_is_no_answer() {
             let (mut scene, mut twin) = (Scene::new(), Scene::new());
             // Somewhere else, which the next tick is to follow.
             let look = Look { eye: Vec3::new(30.0, 4.0, 3.0), direction: Vec3::Z, fov_y: 0.8, aspect: 1.5 };
-            [&mut scene, &mut twin].map(|scene| scene.water.look(look));
+            [&mut scene, &mut twin].into_iter().for_each(|scene| scene.water.look(look));
             call(&mut scene, bad);
             scene.run(5);
             scene.check(name);
