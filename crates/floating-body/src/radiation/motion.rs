@@ -35,6 +35,9 @@ const UPRIGHT: Fade = Fade { from: 0.6, to: 0.866 };
 /// half of what it is at rest, if that is less.
 const AFLOAT: f32 = 0.05;
 
+/// Second moments below this share of the area's with the waterplane's radius are none.
+const NARROW: f32 = 1.0e-6;
+
 /// Where a body is against the ambient water.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -131,6 +134,9 @@ impl Radiator {
             self.areas[1] += area(point) * from.x * from.x;
             self.areas[2] += area(point) * from.y * from.y;
         }
+        // Points in a line tell no slope across it.
+        let least = NARROW * self.areas[0] * self.radius * self.radius;
+        self.areas[1..].iter_mut().filter(|moment| **moment < least).for_each(|moment| *moment = 0.0);
         let whole: f32 = points.iter().map(|point| point.volume).sum();
         let wet = |heave: f32| {
             let under = |point: &ForcePoint| point.immersion(level - heave - point.position.y, Vec3::Y).share;
