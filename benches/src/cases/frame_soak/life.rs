@@ -126,6 +126,13 @@ impl Life {
         Ok(())
     }
 
+    /// What a device compiles once is there before anything is counted.
+    pub(super) fn compile(&mut self) {
+        while !self.water.prepare_gpu_grids() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+    }
+
     fn event(&mut self) -> Result<(), CaseError> {
         match self.which(22) {
             0..=3 if self.afloat.len() < MOST[0] => self.launch(),

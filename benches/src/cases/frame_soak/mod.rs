@@ -46,6 +46,7 @@ fn length(context: &Context) -> usize {
 fn live(context: &Context, chapters: usize, looks: u64) -> Result<Lived, CaseError> {
     let mut device = Device::open()?;
     let mut life = Life::new(&device, 11)?;
+    life.compile();
     let mut looks = Looks::new(looks);
     let mut lived = Lived { hashes: Vec::new(), left: Vec::new(), complaints: 0, broken: 0, events: 0, secs: 0.0 };
     let start = Instant::now();
@@ -56,6 +57,7 @@ fn live(context: &Context, chapters: usize, looks: u64) -> Result<Lived, CaseErr
                 device = Device::open()?;
                 looks.forget();
                 life.lose_device(&device)?;
+                life.compile();
             }
             life.frame()?;
             looks.frame(&device, &mut life)?;
@@ -97,8 +99,7 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
         row("resources of the device")
             .param("resources", one.left.last().map_or(0, |left| left[0]))
             .error(grown(0), "more in the second half", "the most of the first, with nothing in the water")
-            // A short life may come late to its first grid on a device that was replaced.
-            .bound(context.pick(16.0, 2.0)),
+            .bound(2.0),
         row("bytes of the heap")
             .param("MiB", one.left.last().map_or(0, |left| left[1] >> 20))
             .error(grown(1) / 1024.0, "KiB more in the second half", "the most of the first, with nothing in the water")

@@ -124,8 +124,6 @@ pub(crate) struct RemoteGrids {
     tick: u64,
     /// Heights on their way from a copy.
     heights: [Vec<f32>; 2],
-    /// The pipelines are compiled beside, or were.
-    compiling: bool,
 }
 
 impl RemoteGrids {
@@ -136,7 +134,6 @@ impl RemoteGrids {
             draws: Vec::new(),
             tick: 0,
             heights: Default::default(),
-            compiling: false,
         }
     }
 
@@ -160,10 +157,10 @@ impl RemoteGrids {
         })
     }
 
-    /// Has compiled beside what grids need, once. Returns whether it is there.
+    /// Has compiled beside what grids need, once. Returns whether it is there, or was refused.
     pub(crate) fn compile_beside(&mut self) -> bool {
-        if !std::mem::replace(&mut self.compiling, true) {
-            beside(self.grids.compiler(&self.device));
+        if let Some(job) = self.grids.compiler(&self.device) {
+            beside(job);
         }
         self.grids.is_compiled()
     }

@@ -19,8 +19,8 @@ impl OpenWater {
     }
 
     /// Has compiled beside what GPU-homed grids need of the device, so that the first one, added or moved there, does not
-    /// take the time for it. Returns whether it is there: ask in every frame of a loading screen. A grid that comes before
-    /// waits for it. Without a device there is nothing to do.
+    /// take the time for it. Returns whether that is over: ask in every frame of a loading screen. A grid that comes before
+    /// waits for it, and is told what was refused. Without a device there is nothing to do.
     pub fn prepare_gpu_grids(&mut self) -> bool {
         self.gpu.as_mut().is_none_or(|gpu| gpu.lost || gpu.remote.compile_beside())
     }

@@ -19,6 +19,8 @@ const KEPT: usize = 64;
 const AROUND: f32 = 4.0;
 /// Share of the ellipse around a hull, beyond it, in which the steady water ends.
 const ENDS: f32 = 0.5;
+/// Most hulls with which water moves, the largest: every sample asks all of them.
+const MOST: usize = 16;
 /// Cells a second up to which a hull is so slow that the parabola follows in every place, and from which the water moves along.
 const SLOW: f32 = 6.0;
 const FAST: f32 = 12.0;
@@ -120,6 +122,10 @@ impl Hulls {
     pub(super) fn carry(&mut self, age: u64, older: u64, dt: f32, cell_size: [f32; 2]) {
         let frames = self.paths.iter().filter_map(|path| Frame::new(path, age, older, dt, cell_size.into()));
         self.frames.extend(frames);
+        if self.frames.len() > MOST {
+            self.frames.sort_unstable_by(|a, b| b.axes.length_squared().total_cmp(&a.axes.length_squared()));
+            self.frames.truncate(MOST);
+        }
     }
 
     /// How much of the water at a world place moves along with a hull, and around which.

@@ -45,14 +45,14 @@ impl GpuGrids {
     }
 
     /// A job for another thread that compiles beforehand what grids of any kind need, so that the first one need not. A grid
-    /// that comes meanwhile waits for it; what is refused is told when a grid needs it.
-    pub fn compiler(&self, device: &wgpu::Device) -> impl FnOnce() + use<> {
+    /// that comes meanwhile waits for it; what is refused is told when a grid needs it. `None` where it was asked for already.
+    pub fn compiler(&mut self, device: &wgpu::Device) -> Option<impl FnOnce() + use<>> {
         self.passes.compiler(device)
     }
 
-    /// Whether all that [`Self::compiler`] compiles is there.
+    /// Whether all that [`Self::compiler`] compiles is there, or was refused.
     pub fn is_compiled(&self) -> bool {
-        self.passes.waves().is_some() && self.passes.water().is_some()
+        self.passes.is_over()
     }
 
     /// Lets go of what was prepared for nothing.

@@ -91,13 +91,20 @@ impl<T> Late<T> {
         self.0.get()?.as_ref()
     }
 
-    /// Makes it unless it is there; where it is being made beside, waits for that.
-    fn need(&mut self, device: &wgpu::Device, make: impl Fn() -> T) {
-        if self.0.get_or_init(|| guarded(device, &make).ok()).is_none() {
-            // Another grid tries anew, and whoever guards this call is told why.
-            self.0 = Arc::default();
-            make();
+    /// Makes it unless it is there; where it is being made beside, waits for that. Returns whether it is there.
+    fn need(&mut self, device: &wgpu::Device, make: impl Fn() -> T) -> bool {
+        if self.0.get_or_init(|| guarded(device, &make).ok()).is_some() {
+            return true;
         }
+        // Another grid tries anew, and whoever guards this call is told why.
+        self.0 = Arc::default();
+        make();
+        false
+    }
+
+    /// Whether it is there, or was refused.
+    fn is_over(&self) -> bool {
+        self.0.get().is_some()
     }
 }
 
@@ -109,6 +116,8 @@ pub(super) struct Passes {
     waves: Late<WavePasses>,
     /// What dispersive grids need besides.
     water: Late<WaterPasses>,
+    /// They are made beside, or were.
+    beside: bool,
 }
 
 impl Passes {
@@ -117,27 +126,40 @@ impl Passes {
             wgpu::DeviceType::Cpu => StepShape::SOFTWARE,
             _ => StepShape::GPU,
         };
-        Self { layouts: Layouts::new(device), shape, waves: Late(Arc::default()), water: Late(Arc::default()) }
+        Self {
+            layouts: Layouts::new(device),
+            shape,
+            waves: Late(Arc::default()),
+            water: Late(Arc::default()),
+            beside: false,
+        }
     }
 
     /// Compiles what grids need, dispersive ones if there is any `water`, once.
     pub(super) fn need(&mut self, device: &wgpu::Device, water: bool) {
         let Self { layouts, shape, .. } = self;
-        self.waves.need(device, || WavePasses::new(device, layouts, *shape));
-        if water {
-            self.water.need(device, || WaterPasses::new(device, &layouts.state, *shape));
-        }
+        let made = self.waves.need(device, || WavePasses::new(device, layouts, *shape))
+            && (!water || self.water.need(device, || WaterPasses::new(device, &layouts.state, *shape)));
+        self.beside &= made;
     }
 
-    /// Does the same for all that there may be, on any thread.
-    pub(super) fn compiler(&self, device: &wgpu::Device) -> impl FnOnce() + use<> {
-        let Self { layouts, shape, waves, water } = self;
+    /// Does the same for all that there may be, on any thread; `None` where that was asked for already.
+    pub(super) fn compiler(&mut self, device: &wgpu::Device) -> Option<impl FnOnce() + use<>> {
+        if std::mem::replace(&mut self.beside, true) {
+            return None;
+        }
+        let Self { layouts, shape, waves, water, .. } = self;
         let (device, layouts, shape) = (device.clone(), layouts.clone(), *shape);
         let (waves, water) = (Arc::clone(&waves.0), Arc::clone(&water.0));
-        move || {
+        Some(move || {
             waves.get_or_init(|| guarded(&device, || WavePasses::new(&device, &layouts, shape)).ok());
             water.get_or_init(|| guarded(&device, || WaterPasses::new(&device, &layouts.state, shape)).ok());
-        }
+        })
+    }
+
+    /// Whether all that [`Self::compiler`] compiles is there, or was refused.
+    pub(super) fn is_over(&self) -> bool {
+        self.waves.is_over() && self.water.is_over()
     }
 
     /// What dispersive grids need; `None` before it has been compiled.

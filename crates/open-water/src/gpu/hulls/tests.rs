@@ -211,6 +211,27 @@ fn a_hull_that_goes_on_without_copies_leaves_bounded_water() {
 }
 
 #[test]
+fn of_many_hulls_the_largest_count() {
+    let boat = Boat::new(6.0, 0.3);
+    let mut ids = Arena::<BodyId, ()>::default();
+    // Small ones side by side, told before the boat.
+    let small: Vec<BodyId> = (0..40).map(|_| ids.insert(())).collect();
+    let (own, mut hulls) = (ids.insert(()), Hulls::default());
+    for tick in 1..=20 {
+        let hull = boat.hull(tick);
+        let beside = |(at, id): (u32, &BodyId)| {
+            let place = hull.pose.place + DVec2::new(0.0, 20.0 + 5.0 * f64::from(at));
+            Hull { id: *id, half: Vec2::splat(0.3), pose: Pose { place, ..hull.pose } }
+        };
+        let told: Vec<Hull> = (0..).zip(&small).map(beside).chain([Hull { id: own, ..hull }]).collect();
+        hulls.go(tick, &told);
+    }
+    hulls.carry(6, 2, DT, [0.25; 2]);
+    let share = hulls.around(boat.pose(20).place).map(|(share, _)| share);
+    assert!(hulls.frames.len() == MOST && share.is_some_and(|share| share > 0.99), "{share:?}");
+}
+
+#[test]
 fn a_hull_lies_where_its_body_does() {
     let shape = Shape::cuboid(Vec3::new(6.0, 1.0, 2.0)).unwrap();
     let desc = BodyDesc { center_of_mass: Vec3::new(-1.0, 0.0, 0.0), ..BodyDesc::from_hull(&shape, 500.0) };
