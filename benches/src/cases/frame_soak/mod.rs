@@ -99,7 +99,8 @@ fn run(context: &Context) -> Result<Vec<Row>, CaseError> {
         row("resources of the device")
             .param("resources", one.left.last().map_or(0, |left| left[0]))
             .error(grown(0), "more in the second half", "the most of the first, with nothing in the water")
-            .bound(2.0),
+            // A slow device has some buffers more under way; a leak would leave one for each of thousands of events.
+            .bound(16.0),
         row("bytes of the heap")
             .param("MiB", one.left.last().map_or(0, |left| left[1] >> 20))
             .error(grown(1) / 1024.0, "KiB more in the second half", "the most of the first, with nothing in the water")
