@@ -235,19 +235,22 @@ fn a_body_thrown_out_of_the_water_takes_its_volume_along() {
 
 #[test]
 fn a_sphere_tells_all_of_its_heave() {
-    // One point: that it tells no slope of the water is no tilt.
+    // One point: that it tells no slope of the water is no tilt, nor is how it lies.
     let ball = Hull::sphere(5.0).unwrap();
     let mut body = Body::new(BodyDesc { radiation: Radiation::Grid, ..BodyDesc::from_hull(&ball, 261.8e3) }).unwrap();
     body.fit_textures(0.5);
-    let start = BodyState::at_rest(Vec3::Y * (body.rest_height() + 0.05));
-    body.set_state(start);
-    let mut told = 0.0;
-    for _ in 0..60 {
-        body.step(1.0 / 60.0, &Answer(Vec3::ZERO), &Controls::default());
-        told -= body.imprints().unwrap()[0].amounts[0];
+    for turned in [0.0, 1.0, 3.0] {
+        let orientation = Quat::from_rotation_x(turned);
+        let start = BodyState { orientation, ..BodyState::at_rest(Vec3::Y * (body.rest_height() + 0.05)) };
+        body.teleport(start).unwrap();
+        let mut told = 0.0;
+        for _ in 0..60 {
+            body.step(1.0 / 60.0, &Answer(Vec3::ZERO), &Controls::default());
+            told -= body.imprints().unwrap()[0].amounts[0];
+        }
+        let heave = body.state().position.y - start.position.y;
+        assert!(heave < -0.03 && (told - heave).abs() < 1e-4, "{told} m of {heave} m, turned by {turned}");
     }
-    let heave = body.state().position.y - start.position.y;
-    assert!(heave < -0.03 && (told - heave).abs() < 1e-4, "{told} m of {heave} m");
 }
 
 #[test]

@@ -210,8 +210,10 @@ impl Radiator {
         let [whole, along, across] = self.areas;
         let per = |sum: f32, by: f32| if by > 0.0 { sum / by } else { 0.0 };
         let water = Vec3::new(per(sums.x, whole), per(sums.y, across), per(sums.z, along));
-        let turned = Vec2::new(-r.z_axis.y - water.y, r.x_axis.y - water.z);
-        let (modes, gate) = self.counted(self.level - water.x, turned, r.y_axis.y > 0.0);
+        // A ball has no tilt, however it lies.
+        let round = along == 0.0 && across == 0.0;
+        let turned = if round { Vec2::ZERO } else { Vec2::new(-r.z_axis.y - water.y, r.x_axis.y - water.z) };
+        let (modes, gate) = self.counted(self.level - water.x, turned, round || r.y_axis.y > 0.0);
         self.motion.gate = gate;
         let now = Place { at, heading, modes, share: volume_share };
         self.motion.before = if restart { now } else { self.motion.told };
