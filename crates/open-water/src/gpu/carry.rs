@@ -49,8 +49,13 @@ impl Carry {
 
 /// How much is believed of what is carried on over `age` ticks of `dt` seconds, 0 to 1.
 pub(super) fn belief(age: u64, dt: f32) -> f64 {
-    let t = ((FORGOTTEN - age as f32 * dt) / (FORGOTTEN - BELIEVED)).clamp(0.0, 1.0);
-    f64::from(t * t * (3.0 - 2.0 * t))
+    f64::from(smoothstep((FORGOTTEN - age as f32 * dt) / (FORGOTTEN - BELIEVED)))
+}
+
+/// From 0 to 1 without a kink, as `t` does.
+pub(super) fn smoothstep(t: f32) -> f32 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }
 
 /// Ticks by which the older height may be older.

@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use floating_body::Body;
 use glam::{DVec2, Vec2, Vec3};
 
-use super::carry::belief;
+use super::carry::{belief, smoothstep};
 use super::copies::{Field, Value};
 use crate::BodyId;
 
@@ -198,11 +198,6 @@ impl Frame {
 
 fn conjugate(turn: DVec2) -> DVec2 {
     DVec2::new(turn.x, -turn.y)
-}
-
-fn smoothstep(t: f32) -> f32 {
-    let t = t.clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 #[cfg(test)]
